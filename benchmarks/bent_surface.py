@@ -7,7 +7,6 @@ prints every patch; `benchmarks/contact_features.py` prints the summary. FOLDER 
 
 from __future__ import annotations
 
-import argparse
 import math
 from collections.abc import Iterator
 from pathlib import Path
@@ -18,7 +17,7 @@ from numpy.typing import NDArray
 
 import contact
 import reference
-from benchmarks.tables import summary, table
+from benchmarks.tables import read_options, summary, table
 from contact.geometry.profile import Profile
 from contact.geometry.records import Patch, Pose, Velocity
 from contact.geometry.wheelset import Pair
@@ -135,9 +134,7 @@ def errors(folder: Path) -> Iterator[list[str]]:
 
 
 def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("folder", type=Path, help="folder of the reference sets")
-    folder = parser.parse_args().folder
+    folder = read_options(__doc__, folder=Path).folder
     rows = []
     for kind in (False, True):
         for f in patches(folder, kind):

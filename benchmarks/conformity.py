@@ -9,13 +9,13 @@ and conformal (`contact.kernels.conformal`). `--new` sweeps the unworn pair inst
 
 from __future__ import annotations
 
-import argparse
 import math
 from collections.abc import Iterator
 
 import numpy as np
 
 import contact
+from benchmarks.tables import read_options
 from contact.accumulation import Histogram, worn_profile
 from contact.damage import evaluate
 from contact.geometry import profile
@@ -97,10 +97,7 @@ def row(pair: Pair, y: float) -> str:
 
 
 def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--depth", type=float, default=1e-3)
-    parser.add_argument("--new", action="store_true")
-    arguments = parser.parse_args()
+    arguments = read_options(__doc__, depth=1e-3, new=False)
     wheel, rail = profile.s1002(), profile.rail_60e1(inclination=1 / 40)
     if not arguments.new:
         wheel, rail = wear(wheel, rail, arguments.depth)

@@ -8,12 +8,12 @@ log-uniform from .05 to 20.
 
 from __future__ import annotations
 
-import argparse
 import math
 from pathlib import Path
 
 import numpy as np
 
+from benchmarks.tables import read_options
 from contact.theory import force_table as table
 from contact.theory import kalker
 from reference.unseen import LOAD, MATERIAL, MU, C, errors, solve
@@ -34,11 +34,7 @@ def random_case(rng: np.random.Generator) -> tuple[float, float, float, float]:
 
 
 def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--cases", type=int, default=300)
-    parser.add_argument("--seed", type=int, default=1)
-    parser.add_argument("--write", type=Path, help="write cases and the results of the half space also to this file")
-    arguments = parser.parse_args()
+    arguments = read_options(__doc__, cases=300, seed=1, write=Path)
     rng = np.random.default_rng(arguments.seed)
     cases = np.array([random_case(rng) for _ in range(arguments.cases)])
     true = np.array([solve(*case, tangential="halfspace", n=ELEMENTS) for case in cases])

@@ -6,7 +6,6 @@ python -m benchmarks.crossing_run --vehicle manchester --speeds 20 --steps 1e-4 
 
 from __future__ import annotations
 
-import argparse
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
@@ -16,6 +15,7 @@ import numpy as np
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
+from benchmarks.tables import read_options
 from contact.geometry import profile
 from contact.plot import time_histories
 from examples.crossing import turnout
@@ -90,12 +90,7 @@ def draw(runs: Mapping[float, Crossed]) -> Figure:
 
 def main(arguments: Sequence[str] | None = None) -> None:
     """Print a table and write the picture."""
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--vehicle", default="wheelset")
-    parser.add_argument("--speeds", type=float, nargs="+", default=[20.0], help="[m/s]")
-    parser.add_argument("--steps", type=float, nargs="+", default=[1e-4], help="[s]")
-    parser.add_argument("--picture", type=Path, help="file of the picture, of the first step")
-    given = parser.parse_args(arguments)
+    given = read_options(__doc__, arguments, vehicle="wheelset", speeds=[20.0], steps=[1e-4], picture=Path)
     print(
         "speed, m/s | step, ms | largest and least vertical force, kN | place of the largest, m | two patches on, mm | "
         "stored, J | energy of the fall, J | residual, J"

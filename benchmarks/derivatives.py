@@ -9,7 +9,6 @@ derivative is known.
 
 from __future__ import annotations
 
-import argparse
 import dataclasses
 import time
 from collections.abc import Callable
@@ -21,6 +20,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 import contact
+from benchmarks.tables import read_options
 from contact.geometry import profile
 from contact.geometry.wheelset import Pair, Pose, Velocity, contacts
 from contact.pair import WheelRailPair
@@ -227,18 +227,14 @@ def draw_kinks(rows: list[dict[str, Any]], out: Path) -> None:
 
 def main(arguments: list[str] | None = None) -> None:
     """Print all tables."""
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--cases", type=int, default=300)
-    parser.add_argument("--pairs", type=int, default=60)
-    parser.add_argument("--out", type=Path)
-    options = parser.parse_args(arguments)
+    given = read_options(__doc__, arguments, cases=300, pairs=60, out=Path)
     rng = np.random.default_rng(1)
     prices(60, rng)
-    table("patches", of_patches(options.cases, rng))
-    rows = of_pairs(options.pairs, rng)
+    table("patches", of_patches(given.cases, rng))
+    rows = of_pairs(given.pairs, rng)
     table("pairs", rows)
-    if options.out:
-        draw_kinks(rows, options.out)
+    if given.out:
+        draw_kinks(rows, given.out)
 
 
 if __name__ == "__main__":

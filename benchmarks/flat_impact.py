@@ -6,7 +6,6 @@ python -m benchmarks.flat_impact --vehicle manchester --speeds 20 --steps 1e-4 5
 
 from __future__ import annotations
 
-import argparse
 import math
 from collections.abc import Sequence
 from dataclasses import replace
@@ -14,6 +13,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from benchmarks.tables import read_options
 from contact.geometry import profile
 from contact.geometry.surfaces import Flat, WheelSurface
 from models.life.track import Track
@@ -58,12 +58,7 @@ def impact(vehicle: str, length: float, speed: float, h: float, options: Contact
 
 def main(arguments: Sequence[str] | None = None) -> None:
     """Print a table."""
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--vehicle", default="wheelset")
-    parser.add_argument("--lengths", type=float, nargs="+", default=[0.05], help="[m]")
-    parser.add_argument("--speeds", type=float, nargs="+", default=[20.0], help="[m/s]")
-    parser.add_argument("--steps", type=float, nargs="+", default=[1e-4], help="[s]")
-    given = parser.parse_args(arguments)
+    given = read_options(__doc__, arguments, vehicle="wheelset", lengths=[0.05], speeds=[20.0], steps=[1e-4])
     print("flat, mm | speed, m/s | step, ms | largest and least normal force, kN | stored, J | residual, J")
     for length in given.lengths:
         for speed in given.speeds:

@@ -8,7 +8,6 @@ every second case, load 10 to 200 kN. The separation is solved under its load by
 
 from __future__ import annotations
 
-import argparse
 import warnings
 from collections.abc import Iterator
 from concurrent.futures import ProcessPoolExecutor
@@ -17,7 +16,7 @@ from itertools import product
 import numpy as np
 
 import contact
-from benchmarks.tables import table
+from benchmarks.tables import read_options, table
 from contact.errors import ContactError
 from contact.geometry import profile
 from contact.geometry.wheelset import Pair, Pose
@@ -69,9 +68,7 @@ def rows(found: np.ndarray) -> Iterator[list[str]]:
 
 def main() -> None:
     """Print a table for each method."""
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--cases", type=int, default=3000)
-    given = list(cases(parser.parse_args().cases))
+    given = list(cases(read_options(__doc__, cases=3000).cases))
     with ProcessPoolExecutor() as pool:
         found = np.array(list(pool.map(errors, given, chunksize=8)))
     for k, name in enumerate(METHODS):

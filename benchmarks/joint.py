@@ -5,13 +5,13 @@ python -m benchmarks.joint --stations 0.05 0.005 --steps 2e-4 1e-4
 
 from __future__ import annotations
 
-import argparse
 from collections.abc import Sequence
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
 import numpy as np
 
+from benchmarks.tables import read_options
 from contact.geometry import profile
 from models.life.track import Track
 from models.vehicle.course import lay
@@ -43,11 +43,9 @@ def peak(closest: float, h: float, speed: float) -> float:
 
 def main(arguments: Sequence[str] | None = None) -> None:
     """Print a table."""
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--stations", type=float, nargs="+", default=[0.05, 0.02, 0.01, 0.005, 0.0025], help="[m]")
-    parser.add_argument("--steps", type=float, nargs="+", default=[2e-4, 1e-4, 5e-5], help="[s]")
-    parser.add_argument("--speed", type=float, default=30.0, help="[m/s]")
-    given = parser.parse_args(arguments)
+    given = read_options(
+        __doc__, arguments, stations=[0.05, 0.02, 0.01, 0.005, 0.0025], steps=[2e-4, 1e-4, 5e-5], speed=30.0
+    )
     print("stations, mm | step, ms | largest normal force, kN")
     for closest in given.stations:
         for h in given.steps:

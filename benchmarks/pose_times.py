@@ -10,13 +10,12 @@ another one, and warm, when the call is repeated. The whole contact is timed wit
 
 from __future__ import annotations
 
-import argparse
 import time
 
 import numpy as np
 
 import contact
-from benchmarks.tables import table
+from benchmarks.tables import read_options, table
 from contact.geometry import profile
 from contact.geometry.wheelset import Pair, Patch, Pose
 from contact.kernels.normal.strip_halfspace import MAX_ITERATIONS
@@ -78,9 +77,7 @@ def of_rough_gaps(count: int) -> str:
 
 def main() -> None:
     """Print the tables."""
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--poses", type=int, default=10_000)
-    found = poses(parser.parse_args().poses)
+    found = poses(read_options(__doc__, poses=10_000).poses)
     several = np.array([sum(count_of(patch) for patch in patches) for patches in found])
     rows = []
     for title, options, warm in (

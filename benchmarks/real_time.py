@@ -5,7 +5,6 @@ python -m benchmarks.real_time [--steps 1000000] [--real 60000] [--write docs]
 
 from __future__ import annotations
 
-import argparse
 import os
 import shutil
 import subprocess
@@ -19,7 +18,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 import contact
-from benchmarks.tables import table
+from benchmarks.tables import read_options, table
 from contact.geometry import profile
 from models.life.spectra import Irregularities
 from models.life.track import Curve, Track
@@ -256,13 +255,7 @@ def free_run(host: Host, steps: int) -> tuple[dict[str, object], Array, Array]:
 
 def main(arguments: Sequence[str] | None = None) -> None:
     """Print what was found, and write page and picture."""
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--length", type=float, default=400.0, help="of the run [m]")
-    parser.add_argument("--steps", type=int, default=1_000_000, help="replayed as fast as possible")
-    parser.add_argument("--real", type=int, default=60_000, help="steps at 1 kHz")
-    parser.add_argument("--motion", type=Path, help="keep the recorded motion in this .npy file, or take it from there")
-    parser.add_argument("--write", type=Path, help="folder of the page")
-    given = parser.parse_args(arguments)
+    given = read_options(__doc__, arguments, length=400.0, steps=1_000_000, real=60_000, motion=Path, write=Path)
     if given.motion and given.motion.exists():
         moved = np.load(given.motion)
     else:

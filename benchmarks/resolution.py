@@ -8,13 +8,12 @@ change is that from half the number of strips. The force is over mu N, all else 
 
 from __future__ import annotations
 
-import argparse
 import math
 
 import numpy as np
 
 import contact
-from benchmarks.tables import table
+from benchmarks.tables import read_options, table
 from contact.geometry import profile, wheelset
 from contact.study.errors import mean_p95_max
 
@@ -49,10 +48,7 @@ def answers(separation: contact.Separation, load: float) -> np.ndarray:
 
 
 def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--patches", type=int, default=200)
-    parser.add_argument("--seed", type=int, default=1)
-    arguments = parser.parse_args()
+    arguments = read_options(__doc__, patches=200, seed=1)
     cases = patches(arguments.patches, arguments.seed)
     found, yawed = np.array([answers(separation, load) for separation, load, _ in cases]), [case[2] for case in cases]
     rows = []

@@ -8,10 +8,8 @@ No case may raise, return NaN or violate a post-condition. The tables show the m
 
 from __future__ import annotations
 
-import argparse
-
 import contact
-from benchmarks.tables import table
+from benchmarks.tables import read_options, table
 from reference import random_cases
 
 
@@ -53,10 +51,7 @@ def report(cases: int, seed: int) -> str:
 
 
 def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--cases", type=int, default=100_000)
-    parser.add_argument("--seed", type=int, default=1)
-    arguments = parser.parse_args()
+    arguments = read_options(__doc__, cases=100_000, seed=1)
     print(report(arguments.cases, arguments.seed))
 
 

@@ -10,7 +10,6 @@ patches of `contact.pair.RollerRig`, on CONTACT's elements.
 
 from __future__ import annotations
 
-import argparse
 import math
 from collections.abc import Iterator
 from pathlib import Path
@@ -23,7 +22,7 @@ from scipy.interpolate import CubicSpline
 import contact
 import reference
 from benchmarks.patches_of_sets import BOTH, pair_of
-from benchmarks.tables import summary, table
+from benchmarks.tables import read_options, summary, table
 from contact.geometry.records import Patch
 from contact.geometry.wheelset import Pose, Velocity
 from contact.halfspace import Gap
@@ -84,9 +83,7 @@ def _gap(patch: Patch, rail_y: float, angle: float, corners: NDArray[np.float64]
 
 
 def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("folder", type=Path, help="folder of the reference sets")
-    rows = [[p.case, f"{p.smooth:+.2%}", f"{p.polygon:+.2%}"] for p in peaks(parser.parse_args().folder)]
+    rows = [[p.case, f"{p.smooth:+.2%}", f"{p.polygon:+.2%}"] for p in peaks(read_options(__doc__, folder=Path).folder)]
     print(table(["pose", "largest pressure, smooth roller", "with the corners of CONTACT's roller"], rows))
 
 

@@ -8,13 +8,12 @@ penetration, under a load, and under a vertical force with friction. Each pose d
 
 from __future__ import annotations
 
-import argparse
 import time
 from collections.abc import Callable
 
 import numpy as np
 
-from benchmarks.tables import table
+from benchmarks.tables import read_options, table
 from contact.geometry import profile
 from contact.geometry.surfaces import Flat, SurfacePair, WheelSurface
 from contact.geometry.wheelset import Pair, Pose, Velocity
@@ -56,9 +55,7 @@ def measured(pair: Pair | SurfacePair, place: Callable[[int], dict[str, float]],
 
 def main() -> None:
     """Print the table."""
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--poses", type=int, default=200)
-    poses = parser.parse_args().poses
+    poses = read_options(__doc__, poses=200).poses
     flat = WheelSurface.constant(WHEEL, Flat(0.05))
     cases = {
         "constant profiles": (Pair(WHEEL, RAIL), lambda k: {}),

@@ -14,7 +14,6 @@ surfaces, with CONTACT's height (mode z) or vertical force (mode Fz), by the ele
 
 from __future__ import annotations
 
-import argparse
 import csv
 import time
 from collections.abc import Iterator
@@ -23,7 +22,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from benchmarks.tables import table
+from benchmarks.tables import read_options, table
 from contact.geometry.profile import Profile
 from contact.geometry.surfaces import RailSurface, SurfacePair, WheelSurface
 from contact.geometry.surfaces.frame import Frame, PlacedWheel, heights
@@ -173,16 +172,17 @@ def gap_errors(folder: Path, rows: list[list[Row]], sweep: str, pair: SurfacePai
 
 def main() -> None:
     """Print the table."""
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("folder", type=Path)
-    parser.add_argument("--sweeps", nargs="*", default=[*WHEELS, *CROSSINGS])
-    parser.add_argument("--elements", type=int, default=60)
-    parser.add_argument("--spacing", type=float, help="size of the elements [mm], instead of their number")
-    parser.add_argument("--normal", default="halfspace")
-    parser.add_argument("--tangential", default="fastrip_mapped", help="of strips")
-    parser.add_argument("--gaps", action="store_true", help="print only the errors of the undeformed distance [µm]")
-    parser.add_argument("--each", action="store_true", help="print every pose")
-    chosen = parser.parse_args()
+    chosen = read_options(
+        __doc__,
+        folder=Path,
+        sweeps=[*WHEELS, *CROSSINGS],
+        elements=60,
+        spacing=float,
+        normal="halfspace",
+        tangential="fastrip_mapped",
+        gaps=False,
+        each=False,
+    )
     files = sorted(chosen.folder.glob("[EF]_*/*.csv"))
     rows = []
     for sweep in chosen.sweeps:

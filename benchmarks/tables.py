@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import argparse
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -22,11 +23,30 @@ def summary(name: str, errors: ArrayLike, unit: str) -> list[str]:
     return [name, str(e.size), *(f"{v:.1e}" for v in (e.mean(), np.quantile(e, 0.95), e.max())), unit]
 
 
+def read_options(
+    description: str | None, arguments: Sequence[str] | None = None, **defaults: Any
+) -> argparse.Namespace:
+    """Return the options of a benchmark: ``--name``, or the first argument for the name `folder`.
+
+    A default says of which type an option is: a list takes several values, False is a flag, and a type has no default.
+    """
+    raw = argparse.RawDescriptionHelpFormatter
+    parser = argparse.ArgumentParser(description=description, formatter_class=raw)
+    for name, default in defaults.items():
+        if default is False:
+            parser.add_argument(f"--{name}", action="store_true")
+        elif isinstance(default, list):
+            parser.add_argument(f"--{name}", type=type(default[0]), nargs="*", default=default)
+        elif isinstance(default, type):
+            parser.add_argument("folder" if name == "folder" else f"--{name}", type=default)
+        else:
+            parser.add_argument(f"--{name}", type=type(default), default=default)
+    return parser.parse_args(arguments)
+
+
 def tell(report: Callable[[], str], description: str | None) -> None:
     """Print a report, and write it to the file that ``--write`` names."""
-    parser = argparse.ArgumentParser(description=(description or "").splitlines()[0])
-    parser.add_argument("--write", type=Path, help="write the report also to this file")
-    path = parser.parse_args().write
+    path = read_options(description, write=Path).write
     text = report()
     print(text)
     if path:

@@ -9,13 +9,13 @@ strip half space on a grid of width/100. Its own error is about 0.3 % in the pea
 
 from __future__ import annotations
 
-import argparse
 import math
 
 import numpy as np
 from scipy.interpolate import CubicSpline
 
 import contact
+from benchmarks.tables import read_options
 from contact.geometry import profile, wheelset
 from contact.halfspace import norm
 
@@ -34,10 +34,7 @@ def case(rng: np.random.Generator, worn: bool) -> tuple[contact.Separation, floa
 
 
 def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--cases", type=int, default=40)
-    parser.add_argument("--seed", type=int, default=1)
-    arguments = parser.parse_args()
+    arguments = read_options(__doc__, cases=40, seed=1)
     rng = np.random.default_rng(arguments.seed)
     errors: dict[tuple[bool, str], list[tuple[float, ...]]] = {}
     for k in range(arguments.cases):

@@ -10,7 +10,6 @@ elapsed times, beside that of one thread measured in turn; they mean something o
 
 from __future__ import annotations
 
-import argparse
 import math
 import time
 from dataclasses import replace
@@ -19,14 +18,14 @@ from pathlib import Path
 import fmpy
 from fmpy.fmi2 import FMU2Slave
 
-from benchmarks.tables import table
+from benchmarks.tables import read_options, table
 from contact.geometry import profile
 from models.life import scenario
 from models.life.spectra import Irregularities
 from models.life.track import Curve, Track
 from models.vehicle.course import lay
 from models.vehicle.declared import read
-from models.vehicle.kernels.motion import ask, move
+from models.vehicle.kernels.motion import move, prepare_contacts
 from models.vehicle.simulation import PACE, ContactOptions, Simulation
 
 STEP, SHORT = 4.6e-4, 200  # [s], and steps of a piece that is timed
@@ -81,11 +80,11 @@ def measured(speed: float, track: Track, options: ContactOptions, seconds: float
     solved = float((vehicle.benches.held.solutions - before).mean()) / steps if options.pace > 1 else 1.0
     arguments = vehicle.model, vehicle.state, vehicle.benches.motions, vehicle.scratch
     calls = 500
-    ask(*arguments, speed)
+    prepare_contacts(*arguments, speed)
     move(*arguments, 1e-12, speed)
     start = time.process_time()
     for _ in range(calls):  # all but the contacts, with the calls from Python
-        ask(*arguments, speed)
+        prepare_contacts(*arguments, speed)
         move(*arguments, 1e-12, speed)
     besides = (time.process_time() - start) / calls
     return STEP / spent, 1.0 - besides / spent, solved
@@ -125,11 +124,7 @@ def beside_the_fmu(path: Path, seconds: float) -> list[list[str]]:
 
 def main() -> None:
     """Print the tables."""
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--seconds", type=float, default=2.0)
-    parser.add_argument("--threads", type=int, default=0)
-    parser.add_argument("--fmu", type=Path)
-    arguments = parser.parse_args()
+    arguments = read_options(__doc__, seconds=2.0, threads=0, fmu=Path)
     seconds = arguments.seconds
     rows = []
     for name, options in METHODS.items():

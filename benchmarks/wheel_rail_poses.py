@@ -12,7 +12,6 @@ FOLDER holds `wheel_rail_cases.csv` and `profiles/`, which are not ours to pass 
 
 from __future__ import annotations
 
-import argparse
 import csv
 import dataclasses
 import json
@@ -25,7 +24,7 @@ from typing import Any
 import numpy as np
 
 import contact
-from benchmarks.tables import table
+from benchmarks.tables import read_options, table
 from contact.geometry import profile
 from contact.geometry.wheelset import Pair, Pose, Velocity
 from contact.pair import WheelRailPair
@@ -133,12 +132,7 @@ def extract(chosen: Iterable[Patch]) -> None:
 
 def main() -> None:
     """Print the table, and the worst patches."""
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("folder", type=Path)
-    parser.add_argument("--methods", nargs="*", default=METHODS)
-    parser.add_argument("--worst", type=int, default=0)
-    parser.add_argument("--extract", action="store_true")
-    chosen = parser.parse_args()
+    chosen = read_options(__doc__, folder=Path, methods=list(METHODS), worst=0, extract=False)
     poses = read(chosen.folder).values()
     compared = list(patches(poses, chosen.folder))
     if chosen.extract:

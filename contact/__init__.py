@@ -15,7 +15,7 @@ from contact.forces import forces
 from contact.halfspace.third_body import ThirdBody
 from contact.halfspace.transient import Transient
 from contact.material import STEEL, Material
-from contact.moved import Moved
+from contact.moved import MovedModule
 from contact.registry import Method, Methods, methods
 from contact.separation import Separation
 from contact.solution import Forces, Solution, Status, Strips
@@ -58,7 +58,7 @@ __all__ = [
     "solve",
 ]
 
-sys.meta_path.append(Moved())
+sys.meta_path.append(MovedModule())
 
 
 def __getattr__(name: str) -> Any:

@@ -29,7 +29,7 @@ class PlausibilityWarning(UserWarning):
 
 
 class ModelWarning(UserWarning):
-    """What a method leaves out matters here. The message says what, how much it may be, and the method that has it."""
+    """An effect that the method neglects matters here. The message names it, its size, and a method that has it."""
 
 
 class ProfileWarning(PlausibilityWarning):
@@ -97,7 +97,7 @@ def doubt(name: str, value: float, limit: float, hint: str, *, least: float = 0.
 
 
 def warn(text: str, kind: type[UserWarning] = PlausibilityWarning) -> None:
-    """Give a warning at the line that called this package, however deep the call is."""
+    """Warn at the line of the user's code that called this package."""
     level, frame = 1, sys._getframe()
     while frame.f_back and frame.f_globals.get("__name__", "").partition(".")[0] == "contact":
         level, frame = level + 1, frame.f_back

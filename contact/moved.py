@@ -31,7 +31,7 @@ MOVED = {
 }
 
 
-class Moved(MetaPathFinder, Loader):
+class MovedModule(MetaPathFinder, Loader):
     """Finds modules by their earlier names. It comes last, so it is asked only for what nobody else finds."""
 
     def find_spec(

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from types import MappingProxyType
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 from contact.errors import ContactError, suggestion
 from contact.kernels.enumerations import Normal, NormalFamily, Tangential, TangentialFamily
@@ -53,8 +53,8 @@ class Method:
     family: NormalFamily | TangentialFamily
     title: str
     source: str
-    non_elliptic: bool
-    several_patches: bool
+    non_elliptic: bool = True
+    several_patches: bool = True
     fields: bool = True
     spin: bool = True
     lateral: bool = True
@@ -131,334 +131,162 @@ class Methods(NamedTuple):
         return Methods(*(MappingProxyType({n: m for n, m in kind.items() if m.batched}) for kind in self))
 
 
+def _normal(name: str, family: NormalFamily, title: str, source: str, **abilities: bool) -> Method:
+    """Return a normal method, whose `id` has its name."""
+    return Method(name=name, id=Normal[name.upper()], family=family, title=title, source=source, **abilities)
+
+
+def _tangential(
+    name: str, family: TangentialFamily, title: str, source: str, *, of: str = "", **abilities: bool
+) -> Method:
+    """Return a tangential method, whose `id` has its name or that of the method `of` whose kernel it uses."""
+    return Method(
+        name=name, id=Tangential[(of or name).upper()], family=family, title=title, source=source, **abilities
+    )
+
+
+def _force_law(name: str, title: str, source: str, **abilities: Any) -> Method:
+    """Return a law of the creep force on an ellipse."""
+    return _tangential(name, TangentialFamily.CREEP_FORCE, title, source, non_elliptic=False, fields=False, **abilities)
+
+
 _NORMAL = (
-    Method(
-        name="analyn",
-        id=Normal.ANALYN,
-        family=NormalFamily.ANALYN,
-        title="ANALYN, approximate surface deformation",
-        source="Sichani 2016, ch. 9, Paper B",
-        non_elliptic=True,
-        several_patches=True,
-    ),
-    Method(
-        name="hertz",
-        id=Normal.HERTZ,
-        family=NormalFamily.HERTZ,
-        title="Hertz's ellipse at the least point",
-        source="Hertz 1882; Johnson 1985",
-        non_elliptic=False,
+    _normal("analyn", NormalFamily.ANALYN, "ANALYN, approximate surface deformation", "Sichani 2016, ch. 9, Paper B"),
+    _normal(
+        "hertz",
+        NormalFamily.HERTZ,
+        "Hertz's ellipse at the least point",
+        "Hertz 1882; Johnson 1985",
         several_patches=False,
+        non_elliptic=False,
     ),
-    Method(
-        name="strip_halfspace",
-        id=Normal.STRIP_HALFSPACE,
-        family=NormalFamily.STRIP_HALFSPACE,
-        title="interacting strips with semi-elliptic pressure on a half space",
-        source="this project, after Knothe and Le The 1984",
-        non_elliptic=True,
-        several_patches=True,
+    _normal(
+        "strip_halfspace",
+        NormalFamily.STRIP_HALFSPACE,
+        "interacting strips with semi-elliptic pressure on a half space",
+        "this project, after Knothe and Le The 1984",
         interacting=True,
     ),
-    Method(
-        name="kik_piotrowski",
-        id=Normal.KIK_PIOTROWSKI,
-        family=NormalFamily.BY_APPROACH,
-        title="virtual penetration",
-        source="Kik and Piotrowski 1996",
-        non_elliptic=True,
-        several_patches=True,
-    ),
-    Method(
-        name="kik_piotrowski_2008",
-        id=Normal.KIK_PIOTROWSKI_2008,
-        family=NormalFamily.BY_APPROACH,
-        title="virtual penetration with shape correction",
-        source="Piotrowski and Kik 2008",
-        non_elliptic=True,
-        several_patches=True,
+    _normal("kik_piotrowski", NormalFamily.BY_APPROACH, "virtual penetration", "Kik and Piotrowski 1996"),
+    _normal(
+        "kik_piotrowski_2008",
+        NormalFamily.BY_APPROACH,
+        "virtual penetration with shape correction",
+        "Piotrowski and Kik 2008",
         continuous=False,
     ),
-    Method(
-        name="linder",
-        id=Normal.LINDER,
-        family=NormalFamily.BY_APPROACH,
-        title="virtual penetration with local ellipses",
-        source="Linder 1997",
-        non_elliptic=True,
-        several_patches=True,
-    ),
-    Method(
-        name="stripes_a",
-        id=Normal.STRIPES_A,
-        family=NormalFamily.BY_APPROACH,
-        title="STRIPES with A correction",
-        source="Ayasse and Chollet 2005",
-        non_elliptic=True,
-        several_patches=True,
-    ),
-    Method(
-        name="stripes_ab",
-        id=Normal.STRIPES_AB,
-        family=NormalFamily.BY_APPROACH,
-        title="STRIPES with AB correction",
-        source="Ayasse and Chollet 2005",
-        non_elliptic=True,
-        several_patches=True,
-    ),
-    Method(
-        name="winkler",
-        id=Normal.WINKLER,
-        family=NormalFamily.BY_APPROACH,
-        title="elastic foundation",
-        source="Winkler 1867; Johnson 1985, ch. 4.3",
-        non_elliptic=True,
-        several_patches=True,
-    ),
-    Method(
-        name="srst",
-        id=Normal.SRST,
-        family=NormalFamily.BY_APPROACH,
-        title="square root of half the overlap",
-        source="Alonso and Giménez 2005",
-        non_elliptic=True,
-        several_patches=True,
-    ),
-    Method(
-        name="kpec",
-        id=Normal.KPEC,
-        family=NormalFamily.BY_APPROACH,
-        title="virtual penetration with elliptic correction",
-        source="CONTACT 25.1",
-        non_elliptic=True,
+    _normal("linder", NormalFamily.BY_APPROACH, "virtual penetration with local ellipses", "Linder 1997"),
+    _normal("stripes_a", NormalFamily.BY_APPROACH, "STRIPES with A correction", "Ayasse and Chollet 2005"),
+    _normal("stripes_ab", NormalFamily.BY_APPROACH, "STRIPES with AB correction", "Ayasse and Chollet 2005"),
+    _normal("winkler", NormalFamily.BY_APPROACH, "elastic foundation", "Winkler 1867; Johnson 1985, ch. 4.3"),
+    _normal("srst", NormalFamily.BY_APPROACH, "square root of half the overlap", "Alonso and Giménez 2005"),
+    _normal(
+        "kpec",
+        NormalFamily.BY_APPROACH,
+        "virtual penetration with elliptic correction",
+        "CONTACT 25.1",
         several_patches=False,
         continuous=False,
     ),
-    Method(
-        name="semi_winkler",
-        id=Normal.SEMI_WINKLER,
-        family=NormalFamily.BY_APPROACH,
-        title="elastic foundation with tied springs",
-        source="Telliskivi 2004",
-        non_elliptic=True,
-        several_patches=True,
-    ),
-    Method(
-        name="multi_hertz",
-        id=Normal.MULTI_HERTZ,
-        family=NormalFamily.BY_APPROACH,
-        title="ellipses at secondary points",
-        source="Pascal and Sauvage 1993",
-        non_elliptic=True,
-        several_patches=True,
+    _normal("semi_winkler", NormalFamily.BY_APPROACH, "elastic foundation with tied springs", "Telliskivi 2004"),
+    _normal(
+        "multi_hertz",
+        NormalFamily.BY_APPROACH,
+        "ellipses at secondary points",
+        "Pascal and Sauvage 1993",
         continuous=False,
     ),
-    Method(
-        name="pascal_sauvage",
-        id=Normal.PASCAL_SAUVAGE,
-        family=NormalFamily.BY_APPROACH,
-        title="equivalent ellipse",
-        source="Pascal and Sauvage 1993",
+    _normal(
+        "pascal_sauvage",
+        NormalFamily.BY_APPROACH,
+        "equivalent ellipse",
+        "Pascal and Sauvage 1993",
+        several_patches=False,
         non_elliptic=False,
-        several_patches=False,
         continuous=False,
     ),
-    Method(
-        name="halfspace",
-        id=Normal.HALFSPACE,
-        family=NormalFamily.NONE,
-        title="NORM, element-wise half space: the reference",
-        source="Kalker 1990; Polonsky and Keer 1999",
-        non_elliptic=True,
-        several_patches=True,
+    _normal(
+        "halfspace",
+        NormalFamily.NONE,
+        "NORM, element-wise half space: the reference",
+        "Kalker 1990; Polonsky and Keer 1999",
         interacting=True,
         batched=False,
     ),
 )
 _TANGENTIAL = (
-    Method(
-        name="fastrip",
-        id=Tangential.FASTRIP,
-        family=TangentialFamily.FASTRIP,
-        title="FaStrip on local ellipses",
-        source="Sichani 2016, ch. 4 and 9, Papers D and E",
-        non_elliptic=True,
-        several_patches=True,
+    _tangential(
+        "fastrip", TangentialFamily.FASTRIP, "FaStrip on local ellipses", "Sichani 2016, ch. 4 and 9, Papers D and E"
     ),
-    Method(
-        name="fastsim",
-        id=Tangential.FASTSIM,
-        family=TangentialFamily.FASTSIM,
-        title="FASTSIM, three flexibilities, parabolic bound",
-        source="Kalker 1982",
-        non_elliptic=True,
-        several_patches=True,
+    _tangential(
+        "fastsim",
+        TangentialFamily.FASTSIM,
+        "FASTSIM, three flexibilities, parabolic bound",
+        "Kalker 1982",
         admissible=False,
     ),
-    Method(
-        name="fastrip_mapped",
-        id=Tangential.FASTRIP_MAPPED,
-        family=TangentialFamily.FASTRIP_MAPPED,
-        title="FaStrip in one march, mapped to the pressure",
-        source="this project",
-        non_elliptic=True,
-        several_patches=True,
+    _tangential(
+        "fastrip_mapped",
+        TangentialFamily.FASTRIP_MAPPED,
+        "FaStrip in one march, mapped to the pressure",
+        "this project",
         tabulated=True,
     ),
-    Method(
-        name="fastsim_one",
-        id=Tangential.FASTSIM_ONE,
-        family=TangentialFamily.FASTSIM,
-        title="FASTSIM, one weighted flexibility, parabolic bound",
-        source="Kalker 1982",
-        non_elliptic=True,
-        several_patches=True,
+    _tangential(
+        "fastsim_one",
+        TangentialFamily.FASTSIM,
+        "FASTSIM, one weighted flexibility, parabolic bound",
+        "Kalker 1982",
         admissible=False,
     ),
-    Method(
-        name="fastsim_elliptic",
-        id=Tangential.FASTSIM_ELLIPTIC,
-        family=TangentialFamily.FASTSIM,
-        title="FASTSIM, three flexibilities, elliptic bound",
-        source="Kalker 1982",
-        non_elliptic=True,
-        several_patches=True,
+    _tangential(
+        "fastsim_elliptic", TangentialFamily.FASTSIM, "FASTSIM, three flexibilities, elliptic bound", "Kalker 1982"
     ),
-    Method(
-        name="fastsim_linder",
-        id=Tangential.FASTSIM_LINDER,
-        family=TangentialFamily.FASTSIM,
-        title="FASTSIM with the flexibilities of Linder's local ellipses",
-        source="Linder 1997",
-        non_elliptic=True,
-        several_patches=True,
+    _tangential(
+        "fastsim_linder",
+        TangentialFamily.FASTSIM,
+        "FASTSIM with the flexibilities of Linder's local ellipses",
+        "Linder 1997",
         admissible=False,
     ),
-    Method(
-        name="fastsim_stripes",
-        id=Tangential.FASTSIM_STRIPES,
-        family=TangentialFamily.FASTSIM,
-        title="FASTSIM with the flexibilities of STRIPES' local ellipses",
-        source="Ayasse and Chollet 2005",
-        non_elliptic=True,
-        several_patches=True,
+    _tangential(
+        "fastsim_stripes",
+        TangentialFamily.FASTSIM,
+        "FASTSIM with the flexibilities of STRIPES' local ellipses",
+        "Ayasse and Chollet 2005",
         admissible=False,
     ),
-    Method(
-        name="fastsim_knothe",
-        id=Tangential.FASTSIM,
-        family=TangentialFamily.FASTSIM,
-        title="FASTSIM with the flexibilities of linear theory on the patch itself",
-        source="this project, after Knothe and Le The 1984",
-        non_elliptic=True,
-        several_patches=True,
+    _tangential(
+        "fastsim_knothe",
+        TangentialFamily.FASTSIM,
+        "FASTSIM with the flexibilities of linear theory on the patch itself",
+        "this project, after Knothe and Le The 1984",
+        of="fastsim",
         admissible=False,
         batched=False,
         calibrated=True,
     ),
-    Method(
-        name="strip_theory",
-        id=Tangential.STRIP_THEORY,
-        family=TangentialFamily.FASTRIP,
-        title="strip theory",
-        source="Haines and Ollerton 1963; Kalker 1967",
-        non_elliptic=True,
-        several_patches=True,
+    _tangential("strip_theory", TangentialFamily.FASTRIP, "strip theory", "Haines and Ollerton 1963; Kalker 1967"),
+    _force_law("carter", "two-dimensional rolling contact, on a rectangle", "Carter 1926", spin=False, lateral=False),
+    _force_law("johnson", "creepage without spin on the circle of equal area", "Johnson 1958", spin=False),
+    _force_law("vermeulen_johnson", "creepage without spin on an ellipse", "Vermeulen and Johnson 1964", spin=False),
+    _force_law("linear", "Kalker's linear theory", "Kalker 1967", saturates=False),
+    _force_law("linear_saturated", "Kalker's linear theory, limited by friction", "thesis, ch. 5"),
+    _force_law(
+        "shen_hedrick_elkins", "Kalker's linear theory, saturated by the cubic law", "Shen, Hedrick and Elkins 1983"
     ),
-    Method(
-        name="carter",
-        id=Tangential.CARTER,
-        family=TangentialFamily.CREEP_FORCE,
-        title="two-dimensional rolling contact, on a rectangle",
-        source="Carter 1926",
-        non_elliptic=False,
-        several_patches=True,
-        fields=False,
-        spin=False,
-        lateral=False,
-    ),
-    Method(
-        name="johnson",
-        id=Tangential.JOHNSON,
-        family=TangentialFamily.CREEP_FORCE,
-        title="creepage without spin on the circle of equal area",
-        source="Johnson 1958",
-        non_elliptic=False,
-        several_patches=True,
-        fields=False,
-        spin=False,
-    ),
-    Method(
-        name="vermeulen_johnson",
-        id=Tangential.VERMEULEN_JOHNSON,
-        family=TangentialFamily.CREEP_FORCE,
-        title="creepage without spin on an ellipse",
-        source="Vermeulen and Johnson 1964",
-        non_elliptic=False,
-        several_patches=True,
-        fields=False,
-        spin=False,
-    ),
-    Method(
-        name="linear",
-        id=Tangential.LINEAR,
-        family=TangentialFamily.CREEP_FORCE,
-        title="Kalker's linear theory",
-        source="Kalker 1967",
-        non_elliptic=False,
-        several_patches=True,
-        fields=False,
-        saturates=False,
-    ),
-    Method(
-        name="linear_saturated",
-        id=Tangential.LINEAR_SATURATED,
-        family=TangentialFamily.CREEP_FORCE,
-        title="Kalker's linear theory, limited by friction",
-        source="thesis, ch. 5",
-        non_elliptic=False,
-        several_patches=True,
-        fields=False,
-    ),
-    Method(
-        name="shen_hedrick_elkins",
-        id=Tangential.SHEN_HEDRICK_ELKINS,
-        family=TangentialFamily.CREEP_FORCE,
-        title="Kalker's linear theory, saturated by the cubic law",
-        source="Shen, Hedrick and Elkins 1983",
-        non_elliptic=False,
-        several_patches=True,
-        fields=False,
-    ),
-    Method(
-        name="polach",
-        id=Tangential.POLACH,
-        family=TangentialFamily.CREEP_FORCE,
-        title="creep force with spin",
-        source="Polach 1999",
-        non_elliptic=False,
-        several_patches=True,
-        fields=False,
-    ),
-    Method(
-        name="table",
-        id=Tangential.TABLE,
-        family=TangentialFamily.CREEP_FORCE,
-        title="table of the half space's creep forces on ellipses",
-        source="this project, after Kalker 1996 (USETAB)",
-        non_elliptic=False,
-        several_patches=True,
-        fields=False,
+    _force_law("polach", "creep force with spin", "Polach 1999"),
+    _force_law(
+        "table",
+        "table of the half space's creep forces on ellipses",
+        "this project, after Kalker 1996 (USETAB)",
         tabulated=True,
     ),
-    Method(
-        name="halfspace",
-        id=Tangential.HALFSPACE,
-        family=TangentialFamily.NONE,
-        title="TANG in steady rolling, element-wise half space: the reference",
-        source="Kalker 1990",
-        non_elliptic=True,
-        several_patches=True,
+    _tangential(
+        "halfspace",
+        TangentialFamily.NONE,
+        "TANG in steady rolling, element-wise half space: the reference",
+        "Kalker 1990",
         batched=False,
     ),
 )

@@ -154,7 +154,7 @@ class Solver:
         self._full.space.memory[:] = 0.0
 
     def start_from(self, solution: Solution) -> None:
-        """Let the next warm call start from `solution`. It is ignored if its resolution is another one."""
+        """Start the next warm call from `solution`. A solution of another resolution is ignored."""
         memory = self._full.space.memory
         if solution.memory.size == memory.size:
             memory[:] = solution.memory

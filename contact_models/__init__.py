@@ -1,7 +1,7 @@
 """The name that the package `models` has in an installation, in a checkout too: pages and examples import `contact_models`.
 
-`contact_models.life.scenario` is the same module as `models.life.scenario`. A wheel does not hold this file: there `models`
-itself is named `contact_models` (`tools/build_backend.py`).
+`contact_models.life.scenario` is the same module as `models.life.scenario`. A wheel does not hold this file: it installs the
+folder `models` as `contact_models` (`setup.py`). `contact_fmu` does the same for `fmu_src`.
 """
 
 import sys
@@ -12,18 +12,22 @@ from importlib.machinery import ModuleSpec
 from types import ModuleType
 
 
-class _Checkout(MetaPathFinder, Loader):
-    """Finds `models.x` for `contact_models.x`. It comes first: the folders of `models` would make every module twice."""
+class Alias(MetaPathFinder, Loader):
+    """Finds `folder.x` for `name.x`. It comes first: otherwise the folders would make every module twice."""
+
+    def __init__(self, name: str, folder: str) -> None:
+        self._name, self._folder = name, folder
+        sys.meta_path.insert(0, self)
 
     def find_spec(
         self, fullname: str, path: Sequence[str] | None, target: ModuleType | None = None
     ) -> ModuleSpec | None:
-        """Return a spec for a module of this package, None for every other."""
-        return ModuleSpec(fullname, self) if fullname.startswith(f"{__name__}.") else None
+        """Return a spec for a module of the package, None for every other."""
+        return ModuleSpec(fullname, self) if fullname.startswith(f"{self._name}.") else None
 
     def exec_module(self, module: ModuleType) -> None:
         """Put the module of the checkout in the place of `module`."""
-        sys.modules[module.__name__] = import_module(module.__name__.replace(__name__, "models", 1))
+        sys.modules[module.__name__] = import_module(module.__name__.replace(self._name, self._folder, 1))
 
 
-sys.meta_path.insert(0, _Checkout())
+Alias(__name__, "models")

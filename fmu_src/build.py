@@ -9,16 +9,18 @@ from collections.abc import Sequence
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
+from contact_models.life import scenario
+from contact_models.wheelset import ports
+from contact_models.wheelset.parameters import WheelsetParameters
+
 from contact.errors import ContactError
-from fmu_src import profiles, ssp
-from fmu_src.catalogue import Model, models, surfaces, vehicles
-from fmu_src.documentation import markdown
-from fmu_src.native import packaging as native
-from fmu_src.native import systems
-from fmu_src.tables.vehicle import START
-from models.life import scenario
-from models.wheelset import ports
-from models.wheelset.parameters import WheelsetParameters
+
+from . import profiles, ssp
+from .catalogue import Model, models, surfaces, vehicles
+from .documentation import markdown
+from .native import packaging as native
+from .native import systems
+from .tables.vehicle import START
 
 
 def main(words: Sequence[str] | None = None, name: str | None = None) -> None:
@@ -80,7 +82,7 @@ def main(words: Sequence[str] | None = None, name: str | None = None) -> None:
         print("\n".join(markdown(model.table) for model in (*chosen, *more)))
         return
     if arguments.packaging != "native":
-        from fmu_src.python import packaging as python  # it needs pythonfmu
+        from .python import packaging as python  # it needs pythonfmu
 
         for model in chosen:
             print(f"{model.table.name}, for hosts with Python ... ", end="", flush=True)

@@ -11,16 +11,18 @@ from importlib import import_module
 from pathlib import Path
 from typing import Any
 
+from contact_models.life import scenario
+from contact_models.wheelset.ports import POINTS
+
 from contact.geometry import profile
 from contact.geometry.profile import Kind, Profile
 from contact.geometry.surfaces import SurfacePair
-from fmu_src import profiles
-from fmu_src import surfaces as slices
-from fmu_src.tables.vehicle import TRACK
-from fmu_src.track import pack
-from fmu_src.variables import Table
-from models.life import scenario
-from models.wheelset.ports import POINTS
+
+from . import profiles
+from . import surfaces as slices
+from .tables.vehicle import TRACK
+from .track import pack
+from .variables import Table
 
 
 @dataclass(frozen=True)
@@ -48,11 +50,11 @@ class Model:
 
     def component(self) -> Any:
         """Return what the native FMU has (`native.component.Component`)."""
-        return getattr(import_module("fmu_src.native.components"), self.declared)(**self.all_options)
+        return getattr(import_module(".native.components", __package__), self.declared)(**self.all_options)
 
     def module(self, part: str) -> Any:
         """Return the FMU's module in the package `part`: "tables" or "python"."""
-        return import_module(f"fmu_src.{part}.{self.name}")
+        return import_module(f".{part}.{self.name}", __package__)
 
 
 def models(points: int, given: Mapping[Kind, Profile] | None = None, accumulation: bool = False) -> tuple[Model, ...]:

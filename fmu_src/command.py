@@ -95,7 +95,7 @@ def fmu(
 def _build(words: list[str]) -> None:
     """Build the FMUs, or say what is not installed."""
     try:
-        from fmu_src.build import main
+        from .build import main
 
         main(words, "contact fmu")
     except ModuleNotFoundError as missing:

@@ -13,8 +13,9 @@ from uuid import UUID
 from xml.etree.ElementTree import Element, SubElement, indent, tostring
 
 from contact import __version__
-from fmu_src.units import BASE_UNITS, DISPLAY_UNITS, UNITS, display_unit
-from fmu_src.variables import Causality, Kind, Scalar, Table
+
+from .units import BASE_UNITS, DISPLAY_UNITS, UNITS, display_unit
+from .variables import Causality, Kind, Scalar, Table
 
 LOG_CATEGORIES = {
     "logStatusWarning": "A result that should be used with care",

@@ -6,9 +6,9 @@ import math
 from collections.abc import Iterator, Sequence
 from xml.etree.ElementTree import Element, SubElement, indent, tostring
 
-from fmu_src.description import ORIGIN, Interfaces, experiment, number, units
-from fmu_src.units import display_unit
-from fmu_src.variables import Causality, Kind, Scalar, Table, Variable
+from .description import ORIGIN, Interfaces, experiment, number, units
+from .units import display_unit
+from .variables import Causality, Kind, Scalar, Table, Variable
 
 _TYPES = {Kind.REAL: "Float64", Kind.INTEGER: "Int64", Kind.BOOLEAN: "Boolean", Kind.ENUMERATION: "Enumeration"}
 

@@ -6,9 +6,9 @@ import math
 from collections.abc import Iterable
 from html import escape
 
-from fmu_src.description import number
-from fmu_src.first_steps import first_steps
-from fmu_src.variables import Kind, Table, Variable
+from .description import number
+from .first_steps import first_steps
+from .variables import Kind, Table, Variable
 
 
 def markdown(table: Table) -> str:

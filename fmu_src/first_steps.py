@@ -6,8 +6,8 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from html import escape
 
-from fmu_src.description import number
-from fmu_src.variables import Table
+from .description import number
+from .variables import Table
 
 STEPS = 10  # steps of an example
 

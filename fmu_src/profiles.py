@@ -19,9 +19,10 @@ from contact.errors import ContactError
 from contact.geometry import profile
 from contact.geometry.profile import Kind, Profile
 from contact.geometry.wheelset import Pair
-from fmu_src import archive
-from fmu_src import resources as files
-from fmu_src.tables.wheel_rail_pair import RAIL, WHEEL
+
+from . import archive
+from . import resources as files
+from .tables.wheel_rail_pair import RAIL, WHEEL
 
 ROWS = 3
 MAGIC: dict[Kind, bytes] = {"wheel": b"wr-wheel", "rail": b"wr-rail\0"}

@@ -43,7 +43,7 @@ def unpack(resource: bytes, rows: int, fault: str) -> Array:
     """
     content = resource[16:]
     if len(content) < 8 or struct.unpack("<Q", resource[8:16]) != (checksum(content),):
-        raise ContactError(f"{fault}: it is damaged or was not made by fmu_src.resources")
+        raise ContactError(f"{fault}: it is damaged or was not made by contact_fmu.resources")
     (n,) = struct.unpack("<q", content[:8])
     if not 4 <= n <= MOST_POINTS or len(content) != 8 + 8 * rows * n:
         raise ContactError(f"{fault}: it says {n} points")

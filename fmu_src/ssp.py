@@ -21,19 +21,20 @@ from pathlib import Path
 from xml.etree.ElementTree import Element, SubElement, fromstring, indent, tostring
 from zipfile import ZipFile
 
-from fmu_src import archive
-from fmu_src.description import number
-from fmu_src.tables import open_vehicle, wheel_rail_contact, wheel_rail_pair, wheelset
-from fmu_src.tables.solver import NORMAL_METHOD, TANGENTIAL_METHOD
-from fmu_src.tables.wheel_rail_pair import LOAD_KIND, SIDE
-from fmu_src.units import BASE_UNITS, UNITS
-from fmu_src.variables import Causality, Kind, Table
-from models.life.scenario import Scenario
-from models.vehicle.course import lay
-from models.vehicle.kernels.layout import Axis
-from models.vehicle.simulation import ContactOptions, Simulation
-from models.wheelset.parameters import WheelsetParameters
-from models.wheelset.ports import ENERGY, IRREGULARITY, MOTION, POINTS, PROBLEM, REACTION, REPORT, SIDES
+from contact_models.life.scenario import Scenario
+from contact_models.vehicle.course import lay
+from contact_models.vehicle.kernels.layout import Axis
+from contact_models.vehicle.simulation import ContactOptions, Simulation
+from contact_models.wheelset.parameters import WheelsetParameters
+from contact_models.wheelset.ports import ENERGY, IRREGULARITY, MOTION, POINTS, PROBLEM, REACTION, REPORT, SIDES
+
+from . import archive
+from .description import number
+from .tables import open_vehicle, wheel_rail_contact, wheel_rail_pair, wheelset
+from .tables.solver import NORMAL_METHOD, TANGENTIAL_METHOD
+from .tables.wheel_rail_pair import LOAD_KIND, SIDE
+from .units import BASE_UNITS, UNITS
+from .variables import Causality, Kind, Table
 
 NAME, VEHICLE = "coupled", "coupled_vehicle"
 CONNECTED = "Connected.ssd"
@@ -51,7 +52,7 @@ _NAMESPACES = {
 
 
 @dataclass(frozen=True)
-class Component:
+class SspComponent:
     """An FMU of the system: its name there and its parameter values."""
 
     name: str
@@ -70,7 +71,7 @@ class System:
     """
 
     name: str
-    components: list[Component]
+    components: list[SspComponent]
     connections: list[Connection]
     shown: frozenset[str]
     step: float
@@ -83,10 +84,10 @@ def wheelset_on_rails(parameters: WheelsetParameters) -> System:
     p = parameters
     contact = {"speed": p.speed, "wheel.radius": p.radius}
     components = [
-        Component(
+        SspComponent(
             "wheelset", wheelset.table(), {name: float(getattr(p, key)) for name, key in wheelset.KEYWORDS.items()}
         ),
-        *(Component(side, wheel_rail_contact.table(POINTS), contact) for side in SIDES),
+        *(SspComponent(side, wheel_rail_contact.table(POINTS), contact) for side in SIDES),
     ]
     connections: list[Connection] = []
     for side in SIDES:
@@ -134,10 +135,10 @@ def vehicle_on_rails(given: Scenario, start: float) -> System:
     }
     pair = wheel_rail_pair.table()
     names = [f"axle{axle}_{side}" for axle in range(1, len(declared.wheelsets) + 1) for side in SIDES]
-    components, connections = [Component("vehicle", whole, vehicle)], []
+    components, connections = [SspComponent("vehicle", whole, vehicle)], []
     for k, name in enumerate(names):
         side = SIDE.number(SIDES[k % 2].title())
-        components.append(Component(name, pair, {"side_integer": side, **of_wheel}))
+        components.append(SspComponent(name, pair, {"side_integer": side, **of_wheel}))
         connections += [("vehicle", f"wheel[{k + 1}].{ask}", name, ask) for ask in open_vehicle.QUESTION]
         connections += [(name, answer, "vehicle", f"wheel[{k + 1}].{answer}") for answer in open_vehicle.ANSWER]
     shown = frozenset(("speed", "distance", "wheel.Q", "wheel.Y", "wheel.Y_over_Q", "damage.T_gamma"))
@@ -231,7 +232,7 @@ def _parameters(system: Element, made: System) -> None:
                 SubElement(parameter, f"ssv:{of[name].row.kind}", value=str(int(value)))
 
 
-def _component(elements: Element, component: Component, made: System, inputs: tuple[str, ...]) -> set[str]:
+def _component(elements: Element, component: SspComponent, made: System, inputs: tuple[str, ...]) -> set[str]:
     """Add the element of a component, with `inputs` among its connectors, and return the units of these."""
     shown = {end for a, output, b, input_ in made.connections for end in ((a, output), (b, input_))}
     shown |= {(component.name, name) for name in (*made.shown, *inputs)}

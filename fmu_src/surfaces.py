@@ -16,8 +16,9 @@ from contact.geometry import profile
 from contact.geometry.profile import Kind, Profile
 from contact.geometry.surfaces import RailSurface, SurfacePair, WheelSurface, compiled
 from contact.geometry.surfaces.deviation import out_of_round
-from fmu_src import archive, profiles, resources
-from fmu_src.tables.wheel_rail_surfaces import MOST_NUMBERS, RAIL, WHEEL
+
+from . import archive, profiles, resources
+from .tables.wheel_rail_surfaces import MOST_NUMBERS, RAIL, WHEEL
 
 MAGIC: dict[Kind, bytes] = {"wheel": b"wr-wsurf", "rail": b"wr-rsurf"}
 

@@ -10,8 +10,9 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from xml.etree.ElementTree import Element, SubElement, indent, tostring
 
-from fmu_src.variables import Causality, Table
-from models.wheelset.ports import PROBLEM, REACTION, SIDES
+from contact_models.wheelset.ports import PROBLEM, REACTION, SIDES
+
+from .variables import Causality, Table
 
 
 @dataclass(frozen=True)

@@ -8,16 +8,18 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
+from contact_models.life import scenario
+from contact_models.life.scenario import Scenario
+from contact_models.vehicle.course import lay
+from contact_models.vehicle.kernels.layout import TrackRow
+
 from contact.errors import ContactError
-from fmu_src import archive, resources
-from fmu_src.tables.vehicle import TRACK
-from models.life import scenario
-from models.life.scenario import Scenario
-from models.vehicle.course import lay
-from models.vehicle.kernels.layout import Row
+
+from . import archive, resources
+from .tables.vehicle import TRACK
 
 MAGIC = b"wr-track"
-ROWS = len(Row)
+ROWS = len(TrackRow)
 
 
 def pack(given: Scenario) -> bytes:

@@ -29,8 +29,10 @@ def errors_on_ellipses(method: str, published: bool = False) -> dict[str, np.nda
     else:
         ours = np.empty((len(rows), 4))
         for aspect in sorted({row["aob"] for row in rows}):
-            own = [i for i, row in enumerate(rows) if row["aob"] == aspect]
-            creepage = tuple(np.array([rows[i][k] for i in own]) * s for k, s in (("xi", 1), ("eta", 1), ("phi", 1e3)))
+            chosen = [i for i, row in enumerate(rows) if row["aob"] == aspect]
+            creepage = tuple(
+                np.array([rows[i][k] for i in chosen]) * s for k, s in (("xi", 1), ("eta", 1), ("phi", 1e3))
+            )
             separation = ellipse(aspect, 5e-3, N_ELLIPSE)
             many = contact.forces(
                 separation,
@@ -43,7 +45,7 @@ def errors_on_ellipses(method: str, published: bool = False) -> dict[str, np.nda
                 **RESOLUTION,
             )
             scale = MU * N_ELLIPSE
-            ours[own] = np.stack(
+            ours[chosen] = np.stack(
                 [many.Fx / scale, many.Fy / scale, many.Mz / (scale * 5e-3), 1 - many.slip_ratio], axis=1
             )
     true = np.array([[row[f"{k}_contact"] for k in ("fx", "fy", "mz", "adh")] for row in rows])
@@ -153,9 +155,9 @@ def errors_of_slopes(normal: str, tangential: str) -> np.ndarray:
             separation_of(case), creepage, approach=case["delta"] * 1e-3, friction=MU, material=STEEL, normal=normal,
             tangential=tangential, n_strips=40, n_elements=60,
         )  # fmt: skip
-        own = np.array([many.Fx[0], many.Fy[1], many.Fy[2], many.Mz[2]]) / tiny
+        slopes_of_ours = np.array([many.Fx[0], many.Fy[1], many.Fy[2], many.Mz[2]]) / tiny
         slopes = np.array(true["slopes"])
-        errors.append(own / (slopes[0, 0], slopes[1, 1], slopes[2, 1], slopes[2, 2]) - 1)
+        errors.append(slopes_of_ours / (slopes[0, 0], slopes[1, 1], slopes[2, 1], slopes[2, 2]) - 1)
     return np.array(errors)
 
 

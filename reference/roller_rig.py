@@ -35,7 +35,7 @@ ROLLER_RADIUS, WHEEL_RADIUS, FRICTION, SPEED = 0.8001, 0.3556, 0.52, 4.469
 LAYER = contact.ThirdBody(0.05e-3 / 8200e6)
 
 
-class Case(NamedTuple):
+class Rig(NamedTuple):
     """A yaw [rad] and what CONTACT prints for it, of the roller, in mm and N."""
 
     yaw: float
@@ -52,9 +52,9 @@ class Case(NamedTuple):
 
 
 CASES = (
-    Case(0.0, 1.201e-4, 7.3611, -74.0187, (1.989e-4, 0.0, -2.242e-4), 67240.0, -1307.0, 2469.0, 10520.0, 0.08694, 2029.0),
-    Case(2e-3, 8.348e-5, 7.3094, -74.4317, (1.279e-4, 2.003e-3, -2.239e-4), 73980.0, -880.4, -9055.0, 27820.0, 0.09658, 2132.0),
-    Case(0.004, 4.957e-5, 7.2919, -74.8, (7.398e-5, 4.006e-3, -2.241e-4), 79350.0, -505.1, -19480.0, 36430.0, 0.1034, 2198.0),
+    Rig(0.0, 1.201e-4, 7.3611, -74.0187, (1.989e-4, 0.0, -2.242e-4), 67240.0, -1307.0, 2469.0, 10520.0, 0.08694, 2029.0),
+    Rig(2e-3, 8.348e-5, 7.3094, -74.4317, (1.279e-4, 2.003e-3, -2.239e-4), 73980.0, -880.4, -9055.0, 27820.0, 0.09658, 2132.0),
+    Rig(0.004, 4.957e-5, 7.2919, -74.8, (7.398e-5, 4.006e-3, -2.241e-4), 79350.0, -505.1, -19480.0, 36430.0, 0.1034, 2198.0),
 )  # fmt: skip
 
 
@@ -65,7 +65,7 @@ def points(text: str) -> NDArray[np.float64]:
     return np.stack((-y[order], z[order]))
 
 
-def separation(case: Case) -> contact.Separation:
+def separation(case: Rig) -> contact.Separation:
     """Return the gap of a case in the plane of its patch, from splines through the measured points."""
     from scipy.interpolate import CubicSpline
 
@@ -77,7 +77,7 @@ def separation(case: Case) -> contact.Separation:
     return contact.Separation(1e-3 * y, 1e-3 * (gap - gap.min()) / np.sqrt(1.0 + slope**2), np.full(y.size, curvature))
 
 
-def solved(case: Case, spacing: float = 0.4e-3) -> contact.Solution:
+def solved(case: Rig, spacing: float = 0.4e-3) -> contact.Solution:
     """Return our element-wise half space with the layer, under CONTACT's normal force and at its creepages."""
     longitudinal, lateral, spin = case.creepages
     return contact.solve(

@@ -35,7 +35,7 @@ LONGEST = 20e-3  # [s] limit of the steps, since longer ones do not resolve the 
 HELD = 1e9  # [kg m²] inertia of an axle whose spin cannot change
 
 
-class Mode(NamedTuple):
+class CoupledMode(NamedTuple):
     """A motion that is damped by the creep forces: m dv/dt = -c v."""
 
     name: str
@@ -43,15 +43,15 @@ class Mode(NamedTuple):
     damping: float
 
 
-def modes(p: WheelsetParameters) -> list[Mode]:
+def modes(p: WheelsetParameters) -> list[CoupledMode]:
     """Return lateral motion, yaw and spin with c = 2 f/V, slopes f of the contact at rest and masses at the contact."""
     wheelset, contact = DirectWheelset(WheelsetModel(replace(p, lateral=0.0))), DirectContact(p)
     f11, f22 = (slope(contact, wheelset.read("right.problem"), axis) for axis in range(2))
     _, base, radius, _ = wheelset.read("right.frame")
     return [
-        Mode("lateral", p.mass, 2.0 * f22 / p.speed),
-        Mode("yaw", p.yaw_inertia / base**2, 2.0 * f11 / p.speed),
-        Mode("spin", p.spin_inertia / radius**2, 2.0 * f11 / p.speed),
+        CoupledMode("lateral", p.mass, 2.0 * f22 / p.speed),
+        CoupledMode("yaw", p.yaw_inertia / base**2, 2.0 * f11 / p.speed),
+        CoupledMode("spin", p.spin_inertia / radius**2, 2.0 * f11 / p.speed),
     ]
 
 

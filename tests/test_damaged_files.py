@@ -173,8 +173,8 @@ def test_a_damaged_slice_in_a_file_and_in_a_folder(tmp_path):
 def test_a_damaged_file_of_cases(tmp_path, name):
     path = tmp_path / name
     path.write_text(CASES[name])
-    given = vars(arguments.Place()) | vars(arguments.Reading()) | vars(arguments.Amount())
-    given |= {"side": options.Side.right, "friction": 0.3, "curvatures": None}
+    given = vars(arguments.PlaceOptions()) | vars(arguments.Reading()) | vars(arguments.Amount())
+    given |= {"side": options.SideOption.right, "friction": 0.3, "curvatures": None}
     survived(path, lambda: cases.read(path, given), 20)
 
 

@@ -77,6 +77,19 @@ def test_the_library_imports_neither_tests_nor_what_they_share():
     assert found(("contact", "fmu_src", "models"), lambda name: name.split(".")[0] in others) == []
 
 
+@pytest.mark.parametrize("folder", ["fmu_src", "models"])
+def test_a_package_does_not_import_by_the_names_of_the_repository(folder):
+    """They are not installed: `setup.py` installs the folders as `contact_fmu` and `contact_models`."""
+    absolute = [
+        f"{path.relative_to(ROOT)}: {node.module if isinstance(node, ast.ImportFrom) else node.names[0].name}"
+        for path in sources(folder)
+        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8")))
+        if isinstance(node, ast.Import) or (isinstance(node, ast.ImportFrom) and not node.level)
+    ]
+    assert absolute
+    assert [line for line in absolute if line.split(": ")[1].split(".")[0] in ("fmu_src", "models")] == []
+
+
 def test_private_modules_of_contact_stay_in_contact():
     def private(name):
         parts = name.split(".")

@@ -1,9 +1,7 @@
-"""Build backend of wheelrail-contact: setuptools, with two packages renamed in a wheel.
+"""Build backend of wheelrail-contact: setuptools, and the libraries of compiled kernels in a wheel.
 
-In the repository the packages are called `contact`, `fmu_src` and `models`. Once installed, the last two names could clash with
-those of other packages: a user's own `models.py` would break the command line. A wheel therefore holds `contact`, `contact_fmu`
-and `contact_models`. `build_wheel` copies the sources into a temporary folder, renames the two packages there and calls
-setuptools. Editable installs and sdists are made by setuptools, with the names of the repository.
+`build_wheel` copies the sources into a temporary folder, adds the libraries and calls setuptools. `setup.py` names the
+packages. Editable installs are made by setuptools alone.
 
 A wheel is for one system and carries the library of compiled kernels for it. The libraries for the other systems are there
 too, because an FMU has them all. numba and zig build them, and are needed nowhere else. ``--config-setting system=win64``
@@ -13,7 +11,6 @@ machine alone by any C compiler.
 
 from __future__ import annotations
 
-import ast
 import os
 import platform
 import re
@@ -43,16 +40,6 @@ __all__ = [
     "get_requires_for_build_wheel",
     "prepare_metadata_for_build_editable",
 ]
-
-#: Name in the repository → name in a wheel.
-NAMES = {"fmu_src": "contact_fmu", "models": "contact_models"}
-
-# `fmu_src` is always the package. `models` is also an ordinary word, so only imports, dotted names and paths of it are renamed.
-_MENTION = re.compile(
-    r"\bfmu_src\b|(?:(?<=^from )|(?<=^import )|(?<=    from )|(?<=    import )|\b(?=models[./](?:life|wheelset)\b))models\b",
-    re.MULTILINE,
-)
-
 
 #: System, by its name in `fmu_src.native.systems` → tag of its wheels.
 SYSTEMS = {
@@ -148,31 +135,12 @@ def compile_in_c(root: Path, library: Path) -> None:
         raise RuntimeError(f"the library could not be compiled:\n{done.stderr[-3000:]}")
 
 
-def renamed(text: str) -> str:
-    """Return a source with the names that the packages have in a wheel."""
-    return _MENTION.sub(lambda found: NAMES[found[0]], text)
-
-
 def lay_out(root: Path, folder: Path) -> None:
-    """Write the sources of a wheel into `folder`, with the names that the packages have in a wheel.
-
-    Raises
-    ------
-    RuntimeError
-        If a source still imports a package by its name in the repository.
-    """
-    for name in ("README.md", "LICENSE"):
+    """Copy what a wheel is made of into `folder`."""
+    for name in ("README.md", "LICENSE", "pyproject.toml", "setup.py"):
         shutil.copy2(root / name, folder / name)
-    settings = (root / "pyproject.toml").read_text(encoding="utf-8")
-    for old, new in NAMES.items():
-        settings = settings.replace(f'"{old}*"', f'"{new}*"')
-    (folder / "pyproject.toml").write_text(renamed(settings), encoding="utf-8")
-    for name in ("contact", *NAMES):
-        packed = folder / NAMES.get(name, name)
-        shutil.copytree(root / name, packed, ignore=shutil.ignore_patterns("__pycache__", "*.pyc"))
-        for path in sorted(packed.rglob("*")) if name in NAMES else ():
-            if path.suffix in (".py", ".md", ".c", ".h"):
-                _rename_in(path)
+    for name in ("contact", "fmu_src", "models"):
+        shutil.copytree(root / name, folder / name, ignore=shutil.ignore_patterns("__pycache__", "*.pyc"))
 
 
 def build_wheel(
@@ -198,19 +166,3 @@ def build_wheel(
             return str(build_meta.build_wheel(target, options, None))
         finally:
             os.chdir(root)
-
-
-def _rename_in(path: Path) -> None:
-    """Rename the packages in a file, keep its modification time, and check its imports."""
-    times = path.stat()
-    text = renamed(path.read_text(encoding="utf-8"))
-    path.write_text(text, encoding="utf-8")
-    os.utime(path, ns=(times.st_atime_ns, times.st_mtime_ns))
-    if path.suffix != ".py":
-        return
-    for node in ast.walk(ast.parse(text)):
-        imported = [alias.name for alias in node.names] if isinstance(node, ast.Import) else []
-        if isinstance(node, ast.ImportFrom) and not node.level:
-            imported = [node.module or ""]
-        if left := [name for name in imported if name.partition(".")[0] in NAMES]:
-            raise RuntimeError(f"{path}, line {node.lineno}: {left[0]} is imported by its name in the repository")

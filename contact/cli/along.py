@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -20,50 +21,29 @@ from contact.geometry.surfaces import Deviation, RailSurface, SurfacePair, Wheel
 from contact.geometry.surfaces.deviation import out_of_round
 from contact.pair import PairRun, solver_for
 
-_WAY = "Way"
+on_way = partial(typer.Option, rich_help_panel="Way")
 _HEADINGS = ("at\nmm", "z\nmm", "patch", "x\nmm", "y\nmm", "N\nkN", "Fx\nkN", "Fy\nkN", "p max\nMPa", "gap\nerror")
-Begin = Annotated[float, typer.Option("--from", help="first station of the axle in m", rich_help_panel=_WAY)]
-End = Annotated[float, typer.Option("--to", help="last station in m", rich_help_panel=_WAY)]
-Count = Annotated[int, typer.Option("--points", help="number of stations", min=1, rich_help_panel=_WAY)]
-Turned = Annotated[
-    float, typer.Option("--angle", help="angle of the wheel at the first station in rad", rich_help_panel=_WAY)
-]
-Rolling = Annotated[
-    str | None,
-    typer.Option("--tangential", help="tangential method; default that of --normal", rich_help_panel=opt.METHOD),
-]
+Begin = Annotated[float, on_way("--from", help="first station of the axle in m")]
+End = Annotated[float, on_way("--to", help="last station in m")]
+Count = Annotated[int, on_way("--points", help="number of stations", min=1)]
+Turned = Annotated[float, on_way("--angle", help="angle of the wheel at the first station in rad")]
+Rolling = Annotated[str | None, opt.in_method("--tangential", help="tangential method; default that of --normal")]
 Origin = Annotated[
     tuple[float, float] | None,
-    typer.Option(
-        help="place y z of the origin of a rail of slices in m, right side of the track",
-        metavar="Y Z",
-        rich_help_panel=opt.PROFILES,
-    ),
+    opt.in_profiles(help="place y z of the origin of a rail of slices in m, right side of the track", metavar="Y Z"),
 ]
-FlatLength = Annotated[
-    float | None, typer.Option("--flat", help="length of a haversine flat in m", rich_help_panel=opt.PROFILES)
-]
-FlatDepth = Annotated[
-    float | None, typer.Option(help="its depth in m; default length²/(16 radius)", rich_help_panel=opt.PROFILES)
-]
+FlatLength = Annotated[float | None, opt.in_profiles("--flat", help="length of a haversine flat in m")]
+FlatDepth = Annotated[float | None, opt.in_profiles(help="its depth in m; default length²/(16 radius)")]
 PolygonOf = Annotated[
     tuple[int, float] | None,
-    typer.Option(
-        "--polygon",
-        help="out-of-roundness: order, amplitude in m",
-        metavar="ORDER AMPLITUDE",
-        rich_help_panel=opt.PROFILES,
-    ),
+    opt.in_profiles("--polygon", help="out-of-roundness: order, amplitude in m", metavar="ORDER AMPLITUDE"),
 ]
-Vertical = Annotated[
-    float | None,
-    typer.Option(help="instead of a load: vertical force with friction in N", rich_help_panel=opt.LOADING),
-]
+Vertical = Annotated[float | None, opt.in_loading(help="instead of a load: vertical force with friction in N")]
 
 
 @dataclass
 class OutOfRound:
-    """What changes along the way."""
+    """Deviations along the way: flat, polygon, origin of a rail of slices."""
 
     origin: Origin = None
     flat: FlatLength = None
@@ -88,7 +68,7 @@ class Stations:
 @reported
 def along(
     *,
-    place: arguments.Place,
+    place: arguments.PlaceOptions,
     change: OutOfRound,
     reading: arguments.Reading,
     way: Stations,

@@ -74,7 +74,7 @@ class SlidingFriction:
 
 
 @dataclass
-class Place:
+class PlaceOptions:
     """A wheelset on its rails."""
 
     wheel: opt.WheelName = "s1002"
@@ -87,12 +87,12 @@ class Place:
     yaw: opt.Yaw = 0.0
     speed: opt.Speed = 20.0
 
-    def position(self, reading: Reading, side: opt.Side) -> Position:
+    def position(self, reading: Reading, side: opt.SideOption) -> Position:
         """Return the wheelset with its profiles."""
         return Position(
             reading.load(self.wheel, "wheel"),
             reading.load(self.rail, "rail"),
-            ("left", "right") if side is opt.Side.both else (side.value,),
+            ("left", "right") if side is opt.SideOption.both else (side.value,),
             Pose(y=self.y, roll=self.roll, yaw=self.yaw),
             self.speed,
             self.radius,

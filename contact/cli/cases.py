@@ -86,11 +86,11 @@ def cases_of(given: Mapping[str, Any]) -> list[Case]:
                 **common,
             )
         ]
-    if given["side"] not in list(opt.Side):
-        raise ContactError(f"side = {given['side']!r} is none of {', '.join(opt.Side)}")
-    place = arguments.Place(**{entry.name: given[entry.name] for entry in fields(arguments.Place)})
+    if given["side"] not in list(opt.SideOption):
+        raise ContactError(f"side = {given['side']!r} is none of {', '.join(opt.SideOption)}")
+    place = arguments.PlaceOptions(**{entry.name: given[entry.name] for entry in fields(arguments.PlaceOptions)})
     reading = arguments.Reading(**{entry.name: given[entry.name] for entry in fields(arguments.Reading)})
-    position = place.position(reading, opt.Side(given["side"]))
+    position = place.position(reading, opt.SideOption(given["side"]))
     pose = position.pose
     found = list(find_patches(position, load, penetration))
     bodies = " on ".join(_shown(given[body]) for body in ("wheel", "rail"))

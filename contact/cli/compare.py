@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import partial
 from pathlib import Path
 from typing import Annotated
 
@@ -18,30 +19,21 @@ from contact.study import compare as compare_methods
 from contact.study.compare import REFERENCE_ELEMENTS
 from contact.study.pairs import RESOLUTION
 
-COMPARED = "Comparison"
+compared = partial(typer.Option, rich_help_panel="Comparison")
 File = Annotated[
-    Path | None,
-    typer.Argument(help="cases in .toml, .json or .csv, with the names of the options", show_default=False),
+    Path | None, typer.Argument(help="cases in .toml, .json or .csv, with the names of the options", show_default=False)
 ]
 Methods = Annotated[
     list[str] | None,
-    typer.Option(
+    compared(
         "--method",
         help="normal+tangential, like analyn+fastrip; may be repeated. Default: " + ", ".join(map(str, SELECTION)),
-        rich_help_panel=COMPARED,
     ),
 ]
-All = Annotated[bool, typer.Option("--all", help="every normal with every tangential method", rich_help_panel=COMPARED)]
-Without = Annotated[
-    bool, typer.Option("--no-reference", help="without the half space and the errors", rich_help_panel=COMPARED)
-]
-Resolution = Annotated[
-    int,
-    typer.Option(help="strips, and elements per strip, of the methods", rich_help_panel=COMPARED, show_default=True),
-]
-Elements = Annotated[
-    int, typer.Option(help="rows and columns of the half space over the overlap", rich_help_panel=COMPARED)
-]
+All = Annotated[bool, compared("--all", help="every normal with every tangential method")]
+Without = Annotated[bool, compared("--no-reference", help="without the half space and the errors")]
+Resolution = Annotated[int, compared(help="strips, and elements per strip, of the methods", show_default=True)]
+Elements = Annotated[int, compared(help="rows and columns of the half space over the overlap")]
 
 
 @reported
@@ -49,9 +41,9 @@ def compare(
     context: typer.Context,
     file: File = None,
     *,
-    place: arguments.Place,
+    place: arguments.PlaceOptions,
     reading: arguments.Reading,
-    side: opt.Sides = opt.Side.right,
+    side: opt.Sides = opt.SideOption.right,
     amount: arguments.Amount,
     friction: opt.Friction = 0.3,
     curvatures: opt.Curvatures = None,

@@ -60,7 +60,7 @@ def running(command: str, inputs: Mapping[str, Any]) -> Iterator[None]:
 
 
 def in_effect(**values: Any) -> None:
-    """Tell the values that the running command uses for inputs that were not given, so that its JSON has them."""
+    """Record the values that the command uses for inputs that were not given, for its JSON."""
     inputs = _RUNNING.get()[1]
     for name, value in values.items():
         if name in inputs and inputs[name] is None:

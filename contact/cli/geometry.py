@@ -40,7 +40,7 @@ _POINTS: Sequence[tuple[str, str, float]] = (
 
 
 @dataclass
-class Wheelset:
+class WheelsetOptions:
     """Both wheels on both rails."""
 
     wheel: opt.WheelName = "s1002"
@@ -71,7 +71,7 @@ class Wheelset:
 @reported
 def geometry(
     *,
-    wheelset: Wheelset,
+    wheelset: WheelsetOptions,
     reading: arguments.Reading,
     reach: opt.Reach = 0.01,
     step: opt.Step = 1e-4,
@@ -100,7 +100,7 @@ def geometry(
 @reported
 def conicity(
     *,
-    wheelset: Wheelset,
+    wheelset: WheelsetOptions,
     reading: arguments.Reading,
     amplitude: opt.Amplitudes = None,
     curve_radius: opt.CurveRadius = None,

@@ -27,20 +27,15 @@ File = Annotated[
 ]
 Memory = Annotated[
     tuple[float, float] | None,
-    typer.Option(
+    opt.in_loading(
         "--friction-memory",
         help="distance in m over which friction follows --falling, and least sliding velocity in m/s",
         metavar="DISTANCE LEAST",
-        rich_help_panel=opt.LOADING,
     ),
 ]
 Damping = Annotated[
     tuple[float, float] | None,
-    typer.Option(
-        help="contact damping of the normal and the tangential forces in s",
-        metavar="NORMAL TANGENTIAL",
-        rich_help_panel=opt.LOADING,
-    ),
+    opt.in_loading(help="contact damping of the normal and the tangential forces in s", metavar="NORMAL TANGENTIAL"),
 ]
 
 
@@ -48,9 +43,9 @@ Damping = Annotated[
 def in_time(
     motion: File,
     *,
-    place: arguments.Place,
+    place: arguments.PlaceOptions,
     reading: arguments.Reading,
-    side: opt.Sides = opt.Side.right,
+    side: opt.Sides = opt.SideOption.right,
     load: opt.Load = None,
     surface: arguments.SlidingFriction,
     friction_memory: Memory = None,
@@ -69,7 +64,7 @@ def in_time(
     Example:  contact in-time motion.csv --falling exponential 0.15 0.5 --friction-memory 0.1 0.02 --out forces.png
     """
     prepare(out)
-    if side is opt.Side.both:
+    if side is opt.SideOption.both:
         raise ContactError("side = 'both': a motion is that of one wheel")
     columns = _read(motion)
     given = {"pose.y": place.y, "pose.roll": place.roll, "pose.yaw": place.yaw, "velocity.x": place.speed}

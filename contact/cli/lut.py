@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import asdict
+from functools import partial
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -22,27 +23,21 @@ from contact.pair import WheelRailPair
 from contact.registry import DEFAULT_NORMAL, DEFAULT_TANGENTIAL
 from contact.study import lookup
 
-_AXES = "Axes of the tables"
+in_axes = partial(typer.Option, rich_help_panel="Axes of the tables")
 Axis = Annotated[
     list[str] | None,
-    typer.Option(
+    in_axes(
         "--axis",
         help=f"axis and its breakpoints, NAME=FROM:TO:NUMBER or NAME=A,B,C; may be repeated. Names: {', '.join(lookup.AXES)}",
-        rich_help_panel=_AXES,
     ),
 ]
 Chosen = Annotated[
     list[str] | None,
-    typer.Option(
-        "--table",
-        help=f"table to make; may be repeated: {', '.join(lookup.TABLES)}",
-        rich_help_panel=_AXES,
-        show_default=False,
-    ),
+    in_axes("--table", help=f"table to make; may be repeated: {', '.join(lookup.TABLES)}", show_default=False),
 ]
 Checked = Annotated[int, typer.Option("--check", min=1, help="random points on which the error is measured")]
 Threads = Annotated[int | None, typer.Option(min=1, help="threads", show_default="all cores")]
-Tables = Annotated[Path, typer.Option("--out", help="write .mat, .npz or .csv", rich_help_panel=opt.OUTPUT)]
+Tables = Annotated[Path, opt.in_output("--out", help="write .mat, .npz or .csv")]
 
 
 @reported
@@ -57,7 +52,7 @@ def lut(
     gauge: opt.Gauge = 1.435,
     back_to_back: opt.BackToBack = 1.360,
     reading: arguments.Reading,
-    side: opt.Sides = opt.Side.right,
+    side: opt.Sides = opt.SideOption.right,
     load: opt.Load = None,
     speed: opt.Speed = 20.0,
     surface: arguments.SlidingFriction,
@@ -72,14 +67,14 @@ def lut(
     Example:  contact lut --axis y=-6e-3:6e-3:49 --axis yaw=-4e-3:4e-3:9 --axis load=40e3:120e3:5 --out tables.mat
     """
     lookup.require_writable(out)
-    if side is opt.Side.both:
+    if side is opt.SideOption.both:
         raise ContactError("--side both: a table is that of one wheel; allowed: left, right")
     axes = dict(map(_breakpoints, axis or ["y=-6e-3:6e-3:49", "yaw=-4e-3:4e-3:9"]))
     pair = WheelRailPair(
         Pair(
             reading.load(wheel, "wheel"),
             reading.load(rail, "rail"),
-            side="left" if side is opt.Side.left else "right",
+            side="left" if side is opt.SideOption.left else "right",
             nominal_radius=radius,
             gauge=gauge,
             flange_back=back_to_back,

@@ -4,10 +4,8 @@ from __future__ import annotations
 
 from typing import Annotated
 
-import typer
-
 from contact.cli import options as opt
-from contact.cli.compare import COMPARED, All, Elements, Resolution
+from contact.cli.compare import All, Elements, Resolution, compared
 from contact.cli.output import reported, require_endings
 from contact.cli.progress import progress_bar
 from contact.cli.tables import show_study
@@ -18,10 +16,9 @@ from contact.study.pairs import RESOLUTION
 
 Methods = Annotated[
     list[str] | None,
-    typer.Option(
+    compared(
         "--method",
         help="normal+tangential, like analyn+fastrip; may be repeated. Default: " + ", ".join(map(str, METHODS)),
-        rich_help_panel=COMPARED,
     ),
 ]
 

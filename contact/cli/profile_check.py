@@ -16,10 +16,7 @@ from contact.geometry import profile
 
 Given = Annotated[list[Path], typer.Argument(help="profile files or folders", show_default=False)]
 Kind = Annotated[
-    str | None,
-    typer.Option(
-        "--profile-kind", "--kind", help="wheel or rail, for files that do not say it", rich_help_panel=opt.PROFILES
-    ),
+    str | None, opt.in_profiles("--profile-kind", "--kind", help="wheel or rail, for files that do not say it")
 ]
 
 

@@ -22,9 +22,9 @@ from contact.study.table import number
 @reported
 def rail(
     *,
-    place: arguments.Place,
+    place: arguments.PlaceOptions,
     reading: arguments.Reading,
-    side: opt.Sides = opt.Side.right,
+    side: opt.Sides = opt.SideOption.right,
     load: opt.Load = None,
     surface: arguments.SlidingFriction,
     springs: opt.Springs = (math.inf, math.inf),

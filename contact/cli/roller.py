@@ -20,7 +20,7 @@ from contact.solution import Solution
 def roller(
     roller_radius: opt.RollerRadius,
     *,
-    place: arguments.Place,
+    place: arguments.PlaceOptions,
     reading: arguments.Reading,
     spin: opt.Spin = None,
     offset: opt.Offset = 0.0,
@@ -36,7 +36,7 @@ def roller(
     Example:  contact roller 0.6 --y 3e-3 --load 60e3 --spin -43.5
     """
     prepare(out)
-    case = place.position(reading, opt.Side.right)
+    case = place.position(reading, opt.SideOption.right)
     pair = Pair(
         case.wheel,
         case.rail,

@@ -17,11 +17,7 @@ from contact.study.statistics import statistics as compute
 
 Methods = Annotated[
     list[str] | None,
-    typer.Option(
-        "--tangential",
-        help="tangential method; may be repeated. Default: all with a fast kernel",
-        rich_help_panel=opt.METHOD,
-    ),
+    opt.in_method("--tangential", help="tangential method; may be repeated. Default: all with a fast kernel"),
 ]
 Cases = Annotated[int | None, typer.Option(min=1, help="a sample of the 3220 cases", show_default="all")]
 Elements = Annotated[int, typer.Option(help="rows and columns of the half space on the ellipse")]

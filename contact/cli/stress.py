@@ -29,9 +29,9 @@ _DEPTHS = np.linspace(0.0, 1.5, 16)
 def stress(
     context: typer.Context,
     *,
-    place: arguments.Place,
+    place: arguments.PlaceOptions,
     reading: arguments.Reading,
-    side: opt.Sides = opt.Side.right,
+    side: opt.Sides = opt.SideOption.right,
     amount: arguments.Amount,
     curvatures: opt.Curvatures = None,
     surface: arguments.SlidingFriction,

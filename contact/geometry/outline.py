@@ -62,7 +62,7 @@ def trough(y0: float, y1: float, radius: float, cy: float, cz: float) -> Arc:
 
 
 @dataclass(frozen=True)
-class Line:
+class Straight:
     """Straight line from (y0, z0) to (y1, z1), y0 <= y1."""
 
     y0: float
@@ -78,15 +78,15 @@ class Line:
     def moved(self, by: float) -> Self:
         return replace(self, y0=self.y0 + by, y1=self.y1 + by)
 
-    def between(self, y0: float, y1: float) -> Line:
+    def between(self, y0: float, y1: float) -> Straight:
         """Return the part from y0 to y1."""
         slope = (self.z1 - self.z0) / (self.y1 - self.y0)
         return sloped(y0, y1, self.z0 - slope * self.y0, slope)
 
 
-def sloped(y0: float, y1: float, constant: float, slope: float) -> Line:
+def sloped(y0: float, y1: float, constant: float, slope: float) -> Straight:
     """Return the straight line z = constant + slope·y from y0 to y1."""
-    return Line(y0, constant + slope * y0, y1, constant + slope * y1)
+    return Straight(y0, constant + slope * y0, y1, constant + slope * y1)
 
 
 @dataclass(frozen=True)
@@ -111,7 +111,7 @@ class Polynomial:
 
 
 @dataclass(frozen=True)
-class Table:
+class Tabulated:
     """z at equal steps of y from y0 to y1, with a cubic spline between them."""
 
     y0: float
@@ -156,11 +156,11 @@ def chain(radii: Sequence[float], widths: Sequence[float], flank: float) -> tupl
             inward = radius - radii[k + 1]
             start, cy, cz = end, cy + inward * sine, cz - inward * math.sqrt(1.0 - sine**2)
     top = cz - radius * math.sqrt(1.0 - sine**2)
-    right = Line(end, top, end + _FLANK * math.sqrt(1.0 - sine**2), top + _FLANK * sine)
+    right = Straight(end, top, end + _FLANK * math.sqrt(1.0 - sine**2), top + _FLANK * sine)
     crown, *outer = arcs
     left = [Arc(-a.y1, -a.y0, a.radius, -a.cy, a.cz) for a in reversed(outer)]
     crown = Arc(-crown.y1, crown.y1, crown.radius, 0.0, crown.cz)
-    return (Line(-right.y1, right.z1, -right.y0, right.z0), *left, crown, *outer, right)
+    return (Straight(-right.y1, right.z1, -right.y0, right.z0), *left, crown, *outer, right)
 
 
 _FLANK = 12.0  # length of the head's side below the last arc [mm]

@@ -13,7 +13,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from contact.geometry.outline import Arc, Line, Polynomial, Segment, Table, chain, sloped, trough
+from contact.geometry.outline import Arc, Polynomial, Segment, Straight, Tabulated, chain, sloped, trough
 
 Outline = tuple[Segment, ...]
 
@@ -82,7 +82,7 @@ class Tread:
     """Tread: segments on the flange side, the segment with the tape circle, segments on the field side (thickest flange)."""
 
     inner: Outline
-    middle: Arc | Line | Polynomial
+    middle: Arc | Straight | Polynomial
     outer: Outline
     thickness: tuple[float, float] = (28.5, 32.5)  # allowed range of the flange's thickness [mm]
 
@@ -94,7 +94,7 @@ class Tread:
         if moved < 0.0:
             along = self.middle.between(self.middle.y0, _T1).moved(moved)
             y, z, _ = along.points()
-            straight = Line(float(y[-1]), float(z[-1]), 0.0, 0.0)
+            straight = Straight(float(y[-1]), float(z[-1]), 0.0, 0.0)
             middle = (along, straight, self.middle.between(0.0, self.middle.y1))
         return (*flange(height, moved), *inner, *middle, *self.outer)
 
@@ -150,12 +150,12 @@ TREADS = {
     "EPS": Tread(  # the table, in steps of 0.5 mm, meets R100 with a kink of 7°, at a place that no rail reaches
         (
             Arc(_E1, _D1, 13.0, -26.210665, 16.446),
-            Table(_D1, -26.0, _EPS_ROOT),
+            Tabulated(_D1, -26.0, _EPS_ROOT),
             Arc(-26.0, -17.587, 100.0, -6.5, 100.871),
         ),
         Arc(-17.587, 19.0, 330.0, 19.0, 329.453),
         (
-            Line(19.0, -0.547, 29.0, -0.547),
+            Straight(19.0, -0.547, 29.0, -0.547),
             sloped(29.0, 60.0, -0.547 + 29.0 / 15.0, -1.0 / 15.0),
         ),
         thickness=(32.5, 32.5),
@@ -184,7 +184,7 @@ WHEELS_15302: dict[str, Outline] = {
         Arc(-38.7372, -29.4591, 14.0, -25.5816, 17.64215),
         Arc(-29.4591, -10.8749, 96.76055, -2.6594, 97.16493),
         Arc(-10.8749, 18.4173, 345.0, 18.4173, 344.50806),
-        Line(18.4173, -0.49194, 30.0, -0.49194),
+        Straight(18.4173, -0.49194, 30.0, -0.49194),
         sloped(30.0, 60.0, 1.50804, -1.0 / 15.0),
         sloped(60.0, 65.0, 57.50808, -1.0),
     ),
@@ -203,8 +203,8 @@ WHEELS_15302: dict[str, Outline] = {
         Arc(-41.0534, -32.3621, 13.0, -29.0, 16.830365),
         Arc(-32.3621, -17.587, 100.0, -6.5, 100.870534),
         Arc(-17.587, 19.0, 330.0, 19.0, 329.45258),
-        Line(19.0, -0.54742374, 29.0, -0.54742374),
-        Line(29.0, -0.54742374, 59.0, -3.54742374),
+        Straight(19.0, -0.54742374, 29.0, -0.54742374),
+        Straight(29.0, -0.54742374, 59.0, -3.54742374),
         sloped(59.0, 65.0, 55.45257626, -1.0),
     ),
     "H": (
@@ -219,7 +219,7 @@ WHEELS_15302: dict[str, Outline] = {
         *_flange_15302((9.51929, 16.00054, 8.83545, -93.5767), -39.7640, -39.0486),
         Arc(-39.0486, -29.9231, 14.0, -25.8929, 18.49733),
         Arc(-29.9231, 5.0, 120.0, 5.0, _I_FLAT),
-        Line(5.0, _I_FLAT - 120.0, 30.0, _I_FLAT - 120.0),
+        Straight(5.0, _I_FLAT - 120.0, 30.0, _I_FLAT - 120.0),
         sloped(30.0, 60.0, 1.89679, -0.0667),
         sloped(60.0, 65.0, 57.89479, -1.0),
     ),

@@ -62,7 +62,7 @@ class Curved(Influence):
 
 
 class BentCoupling:
-    """What the plane half space lacks on a bent surface: slip from pressure and traction, and a gap that traction opens.
+    """Terms of a bent surface that the plane half space lacks: slip from pressure and traction, and gap from traction.
 
     Parameters
     ----------

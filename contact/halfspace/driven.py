@@ -27,7 +27,7 @@ _REGULAR = 1e-6
 _LARGEST = 1.0
 
 
-class Driven:
+class GivenForces:
     """One problem of steady rolling under given forces.
 
     Parameters

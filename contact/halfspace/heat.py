@@ -21,6 +21,6 @@ def heat_up(case: Case, flux: Matrix, dx: float, coefficients: Matrix) -> None:
             for j in range(k + 1, nx):
                 weight = 2.0 * (math.sqrt(j - k + 0.5) - math.sqrt(j - k - 0.5))
                 warm += weight * flux[i, j]
-            own = heating(case, dx, flux[i, k])
-            coefficients[i, k] = of_heat(case, coefficients[i, k], warm, math.sqrt(2.0) * own)
-            flux[i, k] = coefficients[i, k] * own
+            warming = heating(case, dx, flux[i, k])
+            coefficients[i, k] = of_heat(case, coefficients[i, k], warm, math.sqrt(2.0) * warming)
+            flux[i, k] = coefficients[i, k] * warming

@@ -15,7 +15,7 @@ from contact.creepage import Creepage
 from contact.friction import Friction
 from contact.halfspace.bent import Bent, Surface
 from contact.halfspace.curved import BentCoupling
-from contact.halfspace.driven import Driven
+from contact.halfspace.driven import GivenForces
 from contact.halfspace.heat import heat_up
 from contact.halfspace.norm import Normal
 from contact.halfspace.solution import GridSolution, assemble
@@ -41,7 +41,7 @@ _FINE, _LOOSE, _SHARE_OF_CHANGE = 1e-6, 0.03, 0.05
 
 
 class PressedRecord(NamedTuple):
-    """What a solution records of its normal problem; approach [m], stiffness [N/m]."""
+    """Result of the normal problem: approach [m], stiffness [N/m]."""
 
     approach: float
     stiffness: float
@@ -136,7 +136,7 @@ class Pressed:
         layer = 0.0 if self.layer is None else self.layer.flexibility
         ground = self.p, self.x, self.y, rows, bound, self.material
         rolling, w, window = prepare(*ground, OFFSET, added, layer, _FINE, self.progress)
-        found = Driven(rolling, w, unknown, wanted).solve(np.zeros(len(unknown)))
+        found = GivenForces(rolling, w, unknown, wanted).solve(np.zeros(len(unknown)))
         if found is None:
             return start
         for k, value in zip(unknown, found[0], strict=True):

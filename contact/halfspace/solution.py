@@ -60,7 +60,7 @@ def assemble(
     y: Array,
     p: Array,
     rolling: Tangential,
-    own: Bent,
+    row_geometry: Bent,
     *,
     approach: float,
     stiffness: float,
@@ -77,16 +77,16 @@ def assemble(
 ) -> GridSolution:
     """Return the solution from fields of shape (ny, nx) over increasing `x`, `y` [m], `y` along the surface.
 
-    `own` are place, creepages and slope of each row.
+    `row_geometry` holds place, creepages and slope of each row.
     """
     touching = p > 0.0
     rows, columns = np.flatnonzero(touching.any(axis=1)), np.flatnonzero(touching.any(axis=0))
     dx, dy = float(x[1] - x[0]), float(y[1] - y[0])
     box = np.ix_(rows, columns[::-1])  # element 0 at the leading edge
     qx, qy, sx, sy = (f[box] for f in (rolling.qx, rolling.qy, rolling.sx, rolling.sy))
-    slope, level = own.tilt[rows][:, None], 1.0 / np.sqrt(1.0 + own.tilt**2)[:, None]
+    slope, level = row_geometry.tilt[rows][:, None], 1.0 / np.sqrt(1.0 + row_geometry.tilt**2)[:, None]
     cosine = level[rows]
-    grid_y = np.repeat(own.y[rows][:, None], columns.size, axis=1)
+    grid_y = np.repeat(row_geometry.y[rows][:, None], columns.size, axis=1)
     grid_x = np.repeat(x[columns[::-1]][None, :], rows.size, axis=0)
     inside = touching[box]
     area = float((inside * cosine).sum()) * dx * dy
@@ -105,7 +105,7 @@ def assemble(
     )
     slips = inside & ~rolling.stick[box]
     force = dx * dy
-    bent = bool(own.tilt.any())
+    bent = bool(row_geometry.tilt.any())
     sideways = cosine * slope * p[box]
     fx, fy = qx, cosine * qy + sideways
     if status is Status.OK and rows.size and friction > 0.0 and slips.sum() == inside.sum():
@@ -127,17 +127,17 @@ def assemble(
         iterations=iterations,
         status=status,
         strips=Strips(
-            y=own.y[rows],
+            y=row_geometry.y[rows],
             dy=dy * cosine[:, 0],
             x_c=0.5 * (first + last),
             a=0.5 * (last - first + dx),
             p0=p[rows].max(axis=1, initial=0.0),
             aspect=length / widths[label] if count else np.zeros(0),
             patch=label.astype(np.int64),
-            longitudinal=own.vx[rows] if bent else None,
-            lateral=own.vy[rows] if bent else None,
-            spin=own.phi[rows] if bent else None,
-            tilt=own.tilt[rows] if bent else None,
+            longitudinal=row_geometry.vx[rows] if bent else None,
+            lateral=row_geometry.vy[rows] if bent else None,
+            spin=row_geometry.phi[rows] if bent else None,
+            tilt=row_geometry.tilt[rows] if bent else None,
         ),
         x=grid_x,
         y=grid_y,
@@ -155,7 +155,7 @@ def assemble(
         normal=normal,
         tangential=tangential,
         pressure_y=float(sideways.sum()) * force,
-        bend=float(np.ptp(np.arctan(own.tilt[rows]))) if rows.size else 0.0,
+        bend=float(np.ptp(np.arctan(row_geometry.tilt[rows]))) if rows.size else 0.0,
         gap_error=0.0,  # the gap closes at every element, to the tolerance of the iteration
         patch_edges=edges.reshape(-1, 2),
         memory=np.zeros(0),

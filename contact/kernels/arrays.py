@@ -176,7 +176,7 @@ class Search(NamedTuple):
 
 
 class Sheet(NamedTuple):
-    """A surface that changes along its first coordinate u: the arrays of `contact.geometry.surfaces.sheet.Sheet`.
+    """A surface that changes along its first coordinate u: the arrays of `contact.geometry.surfaces.sheet.SplineSheet`.
 
     `runs` are the first path of each slice and the end. `period` is that of u, 0 for none; without it the surface is
     constant beyond its slices, and `fold` is the middle of the full turn in which a wheel's slices lie, `NaN` for a rail.

@@ -49,7 +49,7 @@ class FrictionMemory:
         self.coefficient = friction.static
 
     def advance(self, sliding: float, step: float) -> float:
-        """Let the coefficient follow the sliding velocity `sliding` [m/s] ≥ 0 over the time `step` [s] ≥ 0; return it.
+        """Advance the coefficient by `step` [s] ≥ 0 at the sliding velocity `sliding` [m/s] ≥ 0, and return it.
 
         The solution is exact for a sliding velocity that is constant over the step.
         """

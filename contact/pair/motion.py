@@ -82,7 +82,7 @@ class PairRun(Mapping[str, Array]):
 
 
 class AnyPair(ABC):
-    """What `WheelRailPair`, `HalfspacePair` and `RollerRig` have in common.
+    """Base class of `WheelRailPair`, `HalfspacePair` and `RollerRig`.
 
     Attributes
     ----------

@@ -161,15 +161,15 @@ def over_poses(
     done = np.zeros(count, np.int64)
 
     def work(thread: int) -> None:
-        own = copy.deepcopy(pair)
-        bench, solve = own.bench, own.solve_given
+        copied = copy.deepcopy(pair)
+        bench, solve = copied.bench, copied.solve_given
         set_surface(bench.case, surface or Friction(0.0), 0.0)
         case = {name: bench.case[name] for name in ("speed", "mu", "kinetic")}
         for k in range(thread, amount.size, count):
             case["speed"][0] = V[k]
             if surface is None:
                 case["mu"][0] = case["kinetic"][0] = mu[k]
-            own.forget()
+            copied.forget()
             if solve(mode, amount[k], given[k]) < 0:
                 for name in _FLOATS:
                     found[name][k] = np.nan

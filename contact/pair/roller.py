@@ -158,13 +158,13 @@ class RollerRig(AnyPair):
             c.lateral * forward / V,
             (c.spin * forward + sine * speed) / V,
         )
-        s, own, ahead = patch.separation, 0.5 * cosine / radius, patch.position[0]
-        A = s.A + own
+        s, curvature, ahead = patch.separation, 0.5 * cosine / radius, patch.position[0]
+        A = s.A + curvature
         middle = float(np.interp(0.0, s.y, s.A))
-        moved = -own * ahead / (middle + own)
-        x_c = (s.A * (s.x_c - moved) - own * (ahead + moved)) / A
-        lower = middle * own / (middle + own) * ahead**2
-        gap = Separation(s.y, s.g + s.A * own / A * (s.x_c + ahead) ** 2 - lower, A, x_c, s.tilt, s.rolling)
+        moved = -curvature * ahead / (middle + curvature)
+        x_c = (s.A * (s.x_c - moved) - curvature * (ahead + moved)) / A
+        lower = middle * curvature / (middle + curvature) * ahead**2
+        gap = Separation(s.y, s.g + s.A * curvature / A * (s.x_c + ahead) ** 2 - lower, A, x_c, s.tilt, s.rolling)
         position = (ahead + moved, *patch.position[1:])
         return replace(patch, separation=gap, creepage=creepage, approach=patch.approach - lower, position=position)
 
@@ -173,9 +173,14 @@ class RollerRig(AnyPair):
         mirror = -1.0 if self.pair.side == "left" else 1.0
         found = []
         for patch in self.contacts(pose, velocity, penetration=penetration):
-            own = friction.placed(patch.on_rail[0], patch.angle, mirror)
+            coefficient = friction.placed(patch.on_rail[0], patch.angle, mirror)
             s = solve(
-                patch.separation, patch.creepage, approach=patch.approach, friction=own, throw=False, **self._options
+                patch.separation,
+                patch.creepage,
+                approach=patch.approach,
+                friction=coefficient,
+                throw=False,
+                **self._options,
             )
             found.append(Solved(patch, s, Frame.about_x(np.zeros(3), patch.angle).axes))
         z = pose.z if penetration is None else self.pair.z + self._lower

@@ -9,7 +9,7 @@ from matplotlib.figure import Figure
 
 
 def show_in_notebooks() -> None:
-    """Let a notebook draw figures as PNG, if it has no format for them yet. Elsewhere this does nothing."""
+    """Register PNG for figures in a notebook that has no format for them. Elsewhere this does nothing."""
     ipython: Any = sys.modules.get("IPython")
     shell = ipython.get_ipython() if ipython else None
     if shell is None or any(

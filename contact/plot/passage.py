@@ -36,15 +36,15 @@ def passage(run: PairRun, title: str = "") -> Figure:
         height.set(ylabel="wheel rises\n[mm]", title=title)
         largest = max((row["N"] for row in rows), default=1.0)
         for k in sorted({row["patch"] for row in rows}):
-            own = [row for row in rows if row["patch"] == k]
-            s = MM * np.array([row["station"] for row in own])
-            area = 4.0 + 30.0 * np.array([row["N"] for row in own]) / largest
+            seen = [row for row in rows if row["patch"] == k]
+            s = MM * np.array([row["station"] for row in seen])
+            area = 4.0 + 30.0 * np.array([row["N"] for row in seen]) / largest
             for ax, name in ((ahead, "x"), (across, "y")):
-                ax.scatter(s, MM * np.array([row[name] for row in own]), s=area, color=LINES[k % len(LINES)], lw=0.0)
-            pressing = np.array([row["N"] for row in own])
+                ax.scatter(s, MM * np.array([row[name] for row in seen]), s=area, color=LINES[k % len(LINES)], lw=0.0)
+            pressing = np.array([row["N"] for row in seen])
             force.plot(s, _KN * pressing, ".", ms=3.0, color=LINES[k % len(LINES)], label=f"N, patch {k + 1}")
             pressure.plot(
-                s, _GPA * np.array([row["max_pressure"] for row in own]), ".", ms=3.0, color=LINES[k % len(LINES)]
+                s, _GPA * np.array([row["max_pressure"] for row in seen]), ".", ms=3.0, color=LINES[k % len(LINES)]
             )
         force.plot(at, _KN * run["Q"], color=INK, lw=1.0, label="vertical force Q")
         force.plot(at, _KN * run["Y"], color=INK, lw=1.0, ls=":", label="lateral force Y")

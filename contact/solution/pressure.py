@@ -30,8 +30,8 @@ def pressure_at(solution: Solution, x: ArrayLike, y: ArrayLike) -> Array:
 
 def strips_of(solution: Solution, k: int) -> PatchStrips:
     """Return the strips of patch `k` for kernels."""
-    own, strips = solution.strips.patch == k, solution.strips
-    return PatchStrips(strips.y[own], strips.x_c[own], strips.a[own], strips.p0[own])
+    inside, strips = solution.strips.patch == k, solution.strips
+    return PatchStrips(strips.y[inside], strips.x_c[inside], strips.a[inside], strips.p0[inside])
 
 
 def limit_of(solution: Solution) -> float:
@@ -51,7 +51,7 @@ def sketch(strips: Strips) -> str:
     )
     seen.bars(y, dy, x_c - a, x_c + a, 0.1 + 0.8 * p0 / max(float(p0.max()), 1e-300))
     for k in np.unique(strips.patch):
-        own = strips.patch == k
-        seen.area(np.r_[y[own], y[own][::-1]], np.r_[(x_c - a)[own], (x_c + a)[own][::-1]], 0.0)
-        pressure.area(np.r_[y[own][0], y[own], y[own][-1]], np.r_[0.0, p0[own], 0.0])
+        inside = strips.patch == k
+        seen.area(np.r_[y[inside], y[inside][::-1]], np.r_[(x_c - a)[inside], (x_c + a)[inside][::-1]], 0.0)
+        pressure.area(np.r_[y[inside][0], y[inside], y[inside][-1]], np.r_[0.0, p0[inside], 0.0])
     return f"{seen.svg()}<br/>{pressure.svg()}"

@@ -33,6 +33,13 @@ Records = NDArray[np.void]
 BEND = 0.4
 
 
+#: Attribute of a solution → its place in the kernel's record or in the kernel's fields.
+_RENAMED = {"pmax": "max_pressure", "power": "power_per_metre", "stiffness": "normal_stiffness"}
+_UNTOLD = "edges", "limited", "touch"
+_NUMBERS = {_RENAMED.get(name, name): k for k, name in enumerate(RESULT.names or ()) if name not in _UNTOLD}
+_FIELDS = {"x": Field.X, "p": Field.P, "qx": Field.QX, "qy": Field.QY, "sx": Field.SX, "sy": Field.SY}
+
+
 @dataclass(frozen=True, slots=True, eq=False)
 class Strips:
     """Longitudinal strips of the patch, each with a semi-elliptic pressure. All arrays have shape (n,).
@@ -167,7 +174,7 @@ class Solution:
     def of_kernel(
         cls,
         n: int,
-        own: Workspace,
+        workspace: Workspace,
         numbers: tuple[Array, Array],
         creepage: Creepage,
         prepared: Prepared,
@@ -175,21 +182,24 @@ class Solution:
     ) -> Solution:
         """Return a solution from the workspace that a kernel has filled for `n` strips.
 
-        `numbers` are the case and result records viewed as float64. The arrays are copied now; the attributes are made
-        from the copy when one of them is first read.
+        `numbers` are the case and result records viewed as float64. The arrays are copied now; friction, strips and fields
+        are made from the copy when one of them is first read, which takes longer than the solution.
         """
         solution = cls.__new__(cls)
         case, result = numbers
-        arrays = own.strips[:, :n].copy(), own.fields[:, :n].copy(), own.space.memory.copy()
-        solution.__dict__["_left"] = (case.copy(), result.copy(), *arrays, creepage, prepared)
-        solution.__dict__["jacobian"] = jacobian
+        record = result.view(RESULT)[0].item()
+        held = solution.__dict__
+        held.update({name: record[k] for name, k in _NUMBERS.items()})
+        held.update(prepared._asdict(), status=Status(solution.status), creepage=creepage, jacobian=jacobian)
+        arrays = workspace.strips[:, :n].copy(), workspace.fields[:, :n].copy(), workspace.space.memory.copy()
+        held["_left"] = (case.copy(), record[-1][: 2 * solution.n_patches].copy(), *arrays)
         return solution
 
     def __getattr__(self, name: str) -> Any:
-        """Make all attributes from the kernel's arrays when one of them is first read."""
+        """Make friction, strips and fields from the kernel's arrays when one of them is first read."""
         if "_left" not in self.__dict__:
             raise AttributeError(f"{type(self).__name__!r} object has no attribute {name!r}")
-        self.__dict__.update(_attributes(*self.__dict__.pop("_left")))
+        self.__dict__.update(_arrays(*self.__dict__.pop("_left")))
         return getattr(self, name)
 
     def __post_init__(self) -> None:
@@ -288,30 +298,13 @@ class Solution:
         return pressure_at(self, x, y)
 
 
-def _attributes(
-    case: Array, numbers: Array, strips: Array, fields: Array, memory: Array, creepage: Creepage, prepared: Prepared
-) -> dict[str, Any]:
-    """Return the attributes of a `Solution` from copies of a kernel's record and arrays."""
-    result = numbers.view(RESULT)[0]
+def _arrays(case: Array, edges: Array, strips: Array, fields: Array, memory: Array) -> dict[str, Any]:
+    """Return friction, strips and fields of a `Solution` from copies of a kernel's record and arrays."""
     y, dA = np.repeat(strips[Strip.Y][:, None], fields.shape[2], axis=1), fields[Field.DX] * strips[Strip.DY][:, None]
     stick, patch = fields[Field.STICK] > 0.5, strips[Strip.PATCH].astype(np.int64)
-    edges, bent = result.edges[: 2 * result.n_patches].reshape(-1, 2), case.view(CASE)[0].conformal != 0
+    bent = case.view(CASE)[0].conformal != 0
     found = {
-        "Fx": float(result.Fx),
-        "Fy": float(result.Fy),
-        "Mz": float(result.Mz),
-        "N": float(result.N),
-        "approach": float(result.approach),
-        "max_pressure": float(result.pmax),
-        "area": float(result.area),
-        "slip_area": float(result.slip_area),
-        "power_per_metre": float(result.power),
-        "normal_stiffness": float(result.stiffness),
-        "length": float(result.length),
-        "width": float(result.width),
-        "n_patches": int(result.n_patches),
-        "iterations": int(result.iterations),
-        "status": Status(result.status),
+        "friction": float(of_case(case.view(CASE)[0])),
         "strips": Strips(
             y=strips[Strip.Y],
             dy=strips[Strip.DY],
@@ -325,25 +318,11 @@ def _attributes(
             spin=strips[Strip.PHI] if bent else None,
             tilt=strips[Strip.TILT] if bent else None,
         ),
-        "x": fields[Field.X],
+        **{name: fields[row] for name, row in _FIELDS.items()},
         "y": y,
-        "p": fields[Field.P],
-        "qx": fields[Field.QX],
-        "qy": fields[Field.QY],
-        "sx": fields[Field.SX],
-        "sy": fields[Field.SY],
         "stick": stick,
         "dA": dA,
-        "creepage": creepage,
-        "friction": float(of_case(case.view(CASE)[0])),
-        "material": prepared.material,
-        "speed": prepared.speed,
-        "normal": prepared.normal,
-        "tangential": prepared.tangential,
-        "pressure_y": float(result.pressure_y),
-        "gap_error": float(result.gap_error),
-        "bend": float(result.bend),
-        "patch_edges": edges,
+        "patch_edges": edges.reshape(-1, 2),
         "memory": memory,
     }
     _own_all(found)
@@ -365,6 +344,6 @@ def _own(array: Any) -> Any:
     """Return a read-only array that owns its memory: `array` itself if it is one already, else a copy."""
     if not isinstance(array, np.ndarray) or (array.base is None and not array.flags.writeable):
         return array
-    own = array.copy()
-    own.setflags(write=False)
-    return own
+    copied = array.copy()
+    copied.setflags(write=False)
+    return copied

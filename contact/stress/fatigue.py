@@ -175,11 +175,11 @@ def centres(path: Array) -> Array:
     touched[:, 0] = first
     left = np.arange(paths)  # the paths whose centre still walks
     for _ in range(_MAX_STEPS):
-        own, base = points[left], points[left, touched[left, 0]]
-        goal, weights = _circumcentre(own, touched[left])
+        point, base = points[left], points[left, touched[left, 0]]
+        goal, weights = _circumcentre(point, touched[left])
         way = goal - centre[left]
-        ahead = 2.0 * np.einsum("pd,pkd->pk", way, base[:, None] - own)
-        room = ((centre[left] - base) ** 2).sum(axis=1)[:, None] - ((centre[left][:, None] - own) ** 2).sum(axis=2)
+        ahead = 2.0 * np.einsum("pd,pkd->pk", way, base[:, None] - point)
+        room = ((centre[left] - base) ** 2).sum(axis=1)[:, None] - ((centre[left][:, None] - point) ** 2).sum(axis=2)
         scale = (way**2).sum(axis=1)[:, None] + 1e-300
         with np.errstate(divide="ignore", invalid="ignore"):
             share = np.where(ahead > _SMALL * scale, np.maximum(room, 0.0) / ahead, np.inf)

@@ -124,8 +124,8 @@ def _of_strips(solution: Solution, n: int) -> SurfaceLoad:
     place_centres(float((strips.x_c - strips.a).min()), float((strips.x_c + strips.a).max()), grid.x)
     place_centres(float(solution.patch_edges.min()), float(solution.patch_edges.max()), grid.y)
     for k, (low, high) in enumerate(solution.patch_edges):
-        own = strips.patch == k
-        fields = PatchFields(solution.x[own], solution.p[own], solution.qx[own], solution.qy[own])
+        inside = strips.patch == k
+        fields = PatchFields(solution.x[inside], solution.p[inside], solution.qx[inside], solution.qy[inside])
         add_load(strips_of(solution, k), fields, low, high, limit, grid)
     if not scale_load(grid, solution.N):
         raise ContactError(f"n = {n} leaves no element inside the patch")

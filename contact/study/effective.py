@@ -95,12 +95,12 @@ class OneEllipse:
         case["amount"] = load
         s = ellipse(math.exp(log_aspect), creep_table.C, load, material)
         size = _RESOLUTION, _RESOLUTION, s.y.size
-        own = workspace.allocate(normal, lookup("tangential", "fastrip"), material.poisson_ratio, size, fields=False)
+        space = workspace.allocate(normal, lookup("tangential", "fastrip"), material.poisson_ratio, size, fields=False)
         self.result = np.zeros(1, RESULT)[0]
-        self.n = press_case(s.samples, case[0], own, self.result)
-        set_rolling(own.strips, self.n, case[0])
-        self.spin = set_shapes(0, self.n, own)
-        self.case, self.own, self.strips, self.area = case[0], own, own.strips.copy(), float(self.result.area)
+        self.n = press_case(s.samples, case[0], space, self.result)
+        set_rolling(space.strips, self.n, case[0])
+        self.spin = set_shapes(0, self.n, space)
+        self.case, self.own, self.strips, self.area = case[0], space, space.strips.copy(), float(self.result.area)
 
     def forces(self, creepage: Array, exponent: float) -> Array:
         """Return Fx/(mu N), Fy/(mu N), Mz/(mu N c) and the share of slip of the march, without the table's changes."""

@@ -12,7 +12,7 @@ from pathlib import Path
 from xml.etree import ElementTree
 from zipfile import ZipFile
 
-from fmu_src.lint import files, structure, variables
+from . import files, structure, variables
 
 RULES = (*structure.RULES, *variables.RULES)
 

@@ -2,6 +2,6 @@
 
 import sys
 
-from fmu_src.lint import main
+from . import main
 
 sys.exit(main(sys.argv[1:]))

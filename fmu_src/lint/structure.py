@@ -6,7 +6,7 @@ import re
 from collections.abc import Iterator
 from xml.etree.ElementTree import Element
 
-from fmu_src.lint import reading
+from . import reading
 
 _ELEMENTS = (
     *(

@@ -8,7 +8,7 @@ from collections.abc import Iterator
 from itertools import product
 from xml.etree.ElementTree import Element
 
-from fmu_src.lint import reading
+from . import reading
 
 _INDEX = r"\[\d+(?:,\d+)*\]"
 _IDENTIFIER = rf"(?:[A-Za-z_]\w*|'(?:[^'\\]|\\.)+')(?:{_INDEX})?"

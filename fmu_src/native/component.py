@@ -9,8 +9,8 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from fmu_src.resources import MOST_POINTS
-from fmu_src.variables import Table, identifier
+from ..resources import MOST_POINTS
+from ..variables import Table, identifier
 
 #: Sizes of a model at the beginning of its numbers, before the value references of its rows.
 SIZES = ("n_values", "points", "n_bodies", "n_links", "n_elements", "n_axles", "n_table")

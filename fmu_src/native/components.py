@@ -5,17 +5,18 @@ from __future__ import annotations
 from enum import IntEnum, auto
 
 import numpy as np
+from contact_models.vehicle.assembly import assemble
+from contact_models.vehicle.declared import read
+from contact_models.wheelset import motion
 
 from contact import Status
 from contact.kernels.geometry.settle import DEEPEST
 from contact.kernels.records import LARGEST_ANGLE
-from fmu_src import surfaces, track
-from fmu_src.native.component import Component, Resource, numbers
-from fmu_src.profiles import MAGIC, ROWS
-from fmu_src.tables import open_vehicle, vehicle, wheel_rail_contact, wheel_rail_pair, wheel_rail_surfaces, wheelset
-from models.vehicle.assembly import assemble
-from models.vehicle.declared import read
-from models.wheelset import motion
+
+from .. import surfaces, track
+from ..profiles import MAGIC, ROWS
+from ..tables import open_vehicle, vehicle, wheel_rail_contact, wheel_rail_pair, wheel_rail_surfaces, wheelset
+from .component import Component, Resource, numbers
 
 WARNINGS: dict[int, str] = {s: f"status {s.name}: {s.message}" for s in (Status.OUT_OF_RANGE, Status.NOT_CONVERGED)}
 #: Outputs of a pair that are integrated over time: see `Component.totals`.
@@ -131,7 +132,7 @@ def axle() -> Component:
 
 def whole_vehicle(vehicle: str, inclination: float) -> Component:
     """Return the FMU of a vehicle. `inclination` is the default of `rail.inclination` (tangent)."""
-    from fmu_src.tables.vehicle import table
+    from ..tables.vehicle import table
 
     return Component(
         kind="vehicle",

@@ -9,7 +9,7 @@ from __future__ import annotations
 import re
 from collections.abc import Sequence
 
-from fmu_src.native.ir_text import (
+from .ir_text import (
     GLOBAL,
     LOCAL,
     TYPES,

@@ -40,12 +40,12 @@ SIGNATURES: dict[str, tuple[str, tuple[str, ...]]] = {
 }
 #: Kind of model → module of its kernels.
 KINDS = {
-    "contact": "fmu_src.native.wheel_rail_contact",
-    "pair": "fmu_src.native.wheel_rail_pair",
-    "surfaces": "fmu_src.native.wheel_rail_surfaces",
-    "wheelset": "fmu_src.native.wheelset",
-    "vehicle": "fmu_src.native.vehicle",
-    "open_vehicle": "fmu_src.native.open_vehicle",
+    "contact": f"{__package__}.wheel_rail_contact",
+    "pair": f"{__package__}.wheel_rail_pair",
+    "surfaces": f"{__package__}.wheel_rail_surfaces",
+    "wheelset": f"{__package__}.wheelset",
+    "vehicle": f"{__package__}.vehicle",
+    "open_vehicle": f"{__package__}.open_vehicle",
 }
 
 

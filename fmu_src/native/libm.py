@@ -13,7 +13,7 @@ from pathlib import Path
 
 import ziglang
 
-from fmu_src.native.objects import CPUS
+from .objects import CPUS
 
 ZIG = Path(ziglang.__file__).parent
 _MUSL = ZIG / "lib" / "libc" / "musl"

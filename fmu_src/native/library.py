@@ -17,8 +17,8 @@ from importlib import import_module
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from fmu_src.native import emit, kinds
-from fmu_src.native.systems import C_SOURCES, PREFIX, flags
+from . import emit, kinds
+from .systems import C_SOURCES, PREFIX, flags
 
 _ROOT = Path(__file__).parents[2]
 
@@ -54,7 +54,8 @@ class Kernels:
 
     def __init__(self, every: bool) -> None:
         from contact.kernels.entries import all_entries
-        from fmu_src.native import c_tables
+
+        from . import c_tables
 
         self.of_python = list(entries())
         self.of_c = all_entries()
@@ -67,8 +68,9 @@ class Kernels:
         from numba import cfunc, types
 
         from contact.core.compiled import as_c_function
-        from fmu_src.native.component import Given
-        from fmu_src.native.memory import TYPES, Doubles
+
+        from .component import Given
+        from .memory import TYPES, Doubles
 
         emit.make_no_machine_code()
         made = emit.Emission(self.data)
@@ -144,7 +146,7 @@ def link_for_this_machine(folder: Path) -> None:
 
 def main() -> None:
     """Build into the folder that the command line names."""
-    emit.ensure_environment("fmu_src.native.library")
+    emit.ensure_environment(f"{__package__}.library")
     folder, for_systems = Path(sys.argv[1]), "--systems" in sys.argv
     kernels = Kernels(every=for_systems)
     module, names = kernels.module()
@@ -157,7 +159,7 @@ def main() -> None:
         write_object(module, folder / "kernels.o")
         link_for_this_machine(folder)
         return
-    from fmu_src.native import objects
+    from . import objects
 
     write_declarations(folder, tuple(f"_{suffix}" for suffix in (*objects.CPUS, objects.IN_C)))
     code = module.as_bitcode()

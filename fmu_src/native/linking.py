@@ -6,9 +6,9 @@ import subprocess
 import sys
 from pathlib import Path
 
-from fmu_src.native.libm import compile_libm
-from fmu_src.native.objects import OWN_LIBM, objects
-from fmu_src.native.systems import ARM, C_SOURCES, WRAPPER, flags
+from .libm import compile_libm
+from .objects import OWN_LIBM, objects
+from .systems import ARM, C_SOURCES, WRAPPER, flags
 
 #: What every library for Windows has. It needs the Universal C Runtime, which is part of Windows since version 10.
 OF_WINDOWS = Path(__file__).parent / "c_windows" / "library.c"

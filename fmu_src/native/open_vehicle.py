@@ -4,14 +4,17 @@ from __future__ import annotations
 
 from typing import Any
 
+from contact_models.vehicle.kernels import motion
 from numba import carray
 
 from contact.kernels.block import records
 from contact.kernels.records import GIVEN
-from fmu_src.native.component import places
-from fmu_src.native.components import OpenFailure
-from fmu_src.native.memory import compiled, numbers_of
-from fmu_src.native.vehicle_parts import (
+
+from ..tables.open_vehicle import table
+from .component import places
+from .components import OpenFailure
+from .memory import compiled, numbers_of
+from .vehicle_parts import (
     arrange,
     constants_of,
     fill,
@@ -21,8 +24,6 @@ from fmu_src.native.vehicle_parts import (
     track_after,
     write_motion,
 )
-from fmu_src.tables.open_vehicle import table
-from models.vehicle.kernels import motion
 
 _TABLE = table("manchester")  # its rows, of whatever size
 _AT = places(_TABLE)
@@ -90,13 +91,13 @@ def model_outputs(values, work, h, given):
         parts.begun[0] = 1.0
     if has_ended(parts):
         return _ENDED
-    motion.ask(model, state, motions, scratch, speed)
+    motion.prepare_contacts(model, state, motions, scratch, speed)
     if h > 0.0:
         _take_forces(v, at, parts)
         motion.move(model, state, motions, scratch, h, speed)
         if not is_near_track(parts):
             return _LOST
-        motion.ask(model, state, motions, scratch, speed)
+        motion.prepare_contacts(model, state, motions, scratch, speed)
     _report(v, at, parts)
     return 0
 

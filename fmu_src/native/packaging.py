@@ -5,17 +5,17 @@ from __future__ import annotations
 from collections.abc import Callable
 from pathlib import Path
 
-from fmu_src import archive
-from fmu_src.catalogue import Model
-from fmu_src.description import model_description
-from fmu_src.description_fmi3 import build_description
-from fmu_src.description_fmi3 import model_description as description_fmi3
-from fmu_src.documentation import markdown, page
-from fmu_src.icon import png
-from fmu_src.native import systems
-from fmu_src.native.component import Component
-from fmu_src.native.table import NAME, content
-from fmu_src.terminals import terminals
+from .. import archive
+from ..catalogue import Model
+from ..description import model_description
+from ..description_fmi3 import build_description
+from ..description_fmi3 import model_description as description_fmi3
+from ..documentation import markdown, page
+from ..icon import png
+from ..terminals import terminals
+from . import systems
+from .component import Component
+from .table import NAME, content
 
 _COMMON = {
     "needsExecutionTool": "false",

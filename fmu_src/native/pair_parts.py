@@ -24,13 +24,14 @@ from contact.kernels.records import (
     TOTAL,
     WHEEL_OFFSET,
 )
-from fmu_src.differences import creepage_steps
-from fmu_src.native.components import Failure
-from fmu_src.native.memory import compiled, numbers_of
-from fmu_src.native.wires import MATERIAL, case_reader, choose, constant, reader, references, size_of, writer
-from fmu_src.tables.solver import DAMAGE_OUTPUTS
-from fmu_src.tables.wheel_rail_pair import LOAD_KIND, PATCH, PATCHES, SIDE
-from fmu_src.variables import Table
+
+from ..differences import creepage_steps
+from ..tables.solver import DAMAGE_OUTPUTS
+from ..tables.wheel_rail_pair import LOAD_KIND, PATCH, PATCHES, SIDE
+from ..variables import Table
+from .components import Failure
+from .memory import compiled, numbers_of
+from .wires import MATERIAL, case_reader, choose, constant, reader, references, size_of, writer
 
 _HEIGHTS = {"NormalForce": Height.LOAD, "Position": Height.GIVEN, "VerticalForce": Height.VERTICAL}
 #: Values of `Height`, by the number of an item of LOAD_KIND, less 1.

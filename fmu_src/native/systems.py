@@ -16,7 +16,8 @@ from pathlib import Path
 from shutil import copy
 
 from contact.core import library
-from fmu_src.native.kinds import KINDS, names
+
+from .kinds import KINDS, names
 
 #: Beginning of the names of the functions that the C interface calls.
 PREFIX = "wrk"
@@ -117,9 +118,9 @@ def _hash(*paths: Path) -> str:
 
 def _link(compiled: Path, made: Path, systems: Sequence[str], say: Callable[[str], None]) -> None:
     try:
-        from fmu_src.native.headers import HEADERS
-        from fmu_src.native.licences import licences
-        from fmu_src.native.linking import link
+        from .headers import HEADERS
+        from .licences import licences
+        from .linking import link
     except ModuleNotFoundError as error:
         raise ImportError(f"{error}: to build native FMUs  pip install 'wheelrail-contact[native]'") from None
     sources = made / "sources"

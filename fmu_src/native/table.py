@@ -9,9 +9,9 @@ from __future__ import annotations
 import struct
 from collections.abc import Iterator
 
-from fmu_src.native.component import Component
-from fmu_src.resources import checksum
-from fmu_src.variables import Causality, Scalar, Table, Variable
+from ..resources import checksum
+from ..variables import Causality, Scalar, Table, Variable
+from .component import Component
 
 MAGIC = b"WRMODEL1"
 NAME = "model.bin"

@@ -10,6 +10,8 @@ import math
 from typing import Any, NamedTuple
 
 import numpy as np
+from contact_models.vehicle.kernels import motion
+from contact_models.vehicle.kernels.layout import ELASTIC, Book
 from numba import carray, types
 
 from contact import Status
@@ -17,11 +19,15 @@ from contact.kernels.block import ahead, matrix, next_line, records, vector
 from contact.kernels.geometry.prepare import rail_origin, turn
 from contact.kernels.records import GIVEN
 from contact.kernels.rows import N_PROFILE_ROWS
-from fmu_src.native.component import places
-from fmu_src.native.components import Failure
-from fmu_src.native.kinds import SIGNATURES
-from fmu_src.native.memory import TYPES, Doubles, compiled, integers_of, numbers_of
-from fmu_src.native.vehicle_parts import (
+
+from ..tables import wheel_rail_pair as pair_table
+from ..tables.vehicle import TOTALS, WHEEL, table
+from ..variables import Causality, identifier
+from .component import places
+from .components import Failure
+from .kinds import SIGNATURES
+from .memory import TYPES, Doubles, compiled, integers_of, numbers_of
+from .vehicle_parts import (
     arrange,
     constants_of,
     fill,
@@ -31,12 +37,7 @@ from fmu_src.native.vehicle_parts import (
     track_after,
     write_motion,
 )
-from fmu_src.native.wires import references
-from fmu_src.tables import wheel_rail_pair as pair_table
-from fmu_src.tables.vehicle import TOTALS, WHEEL, table
-from fmu_src.variables import Causality, identifier
-from models.vehicle.kernels import motion
-from models.vehicle.kernels.layout import ELASTIC, Book
+from .wires import references
 
 
 def _entry_of_pair(name: str) -> Any:
@@ -224,7 +225,7 @@ def _advance(v, at, parts, contacts, h, given):
     for _ in range(steps):
         if has_ended(parts):
             return Failure.ENDED
-        motion.ask(model, state, motions, scratch, speed)
+        motion.prepare_contacts(model, state, motions, scratch, speed)
         code = _press(v, parts, contacts, step, given)
         if code > _WORST_STATUS:
             return code

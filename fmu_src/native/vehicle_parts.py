@@ -5,14 +5,8 @@ from __future__ import annotations
 from typing import Any, NamedTuple
 
 import numpy as np
-from numba import carray
-
-from contact.kernels.block import ahead, cube, matrix, records, vector
-from contact.kernels.records import GIVEN, MOTION
-from fmu_src.native.components import FARTHEST
-from fmu_src.native.memory import compiled, integers_of
-from models.vehicle.course import BEYOND
-from models.vehicle.kernels.layout import (
+from contact_models.vehicle.course import BEYOND
+from contact_models.vehicle.kernels.layout import (
     BODY,
     ELEMENT,
     LINK,
@@ -20,17 +14,24 @@ from models.vehicle.kernels.layout import (
     WHEEL,
     Axis,
     Book,
-    Frame,
     Model,
-    Row,
     Scratch,
     State,
     Sum,
+    TrackFrame,
+    TrackRow,
 )
+from numba import carray
+
+from contact.kernels.block import ahead, cube, matrix, records, vector
+from contact.kernels.records import GIVEN, MOTION
+
+from .components import FARTHEST
+from .memory import compiled, integers_of
 
 _INTEGER = np.dtype([("value", "i8")])
 _N_BODY, _N_LINK, _N_ELEMENT = BODY.itemsize // 8, LINK.itemsize // 8, ELEMENT.itemsize // 8
-_N_FRAME, _N_SUM, _N_BOOK, _N_ROW = len(Frame), len(Sum), len(Book), len(Row)
+_N_FRAME, _N_SUM, _N_BOOK, _N_ROW = len(TrackFrame), len(Sum), len(Book), len(TrackRow)
 
 
 class Parts(NamedTuple):
@@ -140,7 +141,7 @@ def track_after(resources, n_files):
 @compiled
 def has_ended(parts):
     """Return whether the vehicle has reached the end of the track, or has no finite place."""
-    s, places = parts.state.books[Book.DISTANCE], parts.model.track[Row.PLACE]
+    s, places = parts.state.books[Book.DISTANCE], parts.model.track[TrackRow.PLACE]
     return not places[0] <= s <= places[-1] - BEYOND
 
 

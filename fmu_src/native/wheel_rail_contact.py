@@ -25,12 +25,13 @@ from contact.kernels.records import CASE, DAMAGE, DAMAGE_PARAMETERS, MAX_PATCHES
 from contact.kernels.result import clear_forces
 from contact.kernels.rows import DamageField, Field, Strip
 from contact.kernels.separation import HERTZIAN_POINTS, fill_hertzian
-from fmu_src.differences import creepage_steps
-from fmu_src.native.component import places
-from fmu_src.native.memory import compiled
-from fmu_src.native.wires import MATERIAL, case_reader, choose, size_of, writer
-from fmu_src.tables.solver import DAMAGE_OUTPUTS, SURFACE
-from fmu_src.tables.wheel_rail_contact import FLATTEST, GEOMETRY_KIND, LOAD_KIND, table
+
+from ..differences import creepage_steps
+from ..tables.solver import DAMAGE_OUTPUTS, SURFACE
+from ..tables.wheel_rail_contact import FLATTEST, GEOMETRY_KIND, LOAD_KIND, table
+from .component import places
+from .memory import compiled
+from .wires import MATERIAL, case_reader, choose, size_of, writer
 
 _CURVATURES, _NORMAL_FORCE = GEOMETRY_KIND.number("Curvatures"), LOAD_KIND.number("NormalForce")
 _CONFORMAL = SURFACE.number("Conformal")

@@ -18,13 +18,14 @@ from contact.kernels.damage.deposit import arc_length
 from contact.kernels.entries.layout import fill, lay_out
 from contact.kernels.geometry.prepare import facing, rail_origin, take_nodes, turn
 from contact.kernels.rows import N_PROFILE_ROWS, Bin
-from fmu_src.native import pair_parts
-from fmu_src.native.components import Failure
-from fmu_src.native.memory import compiled
-from fmu_src.native.pair_parts import sizer
-from fmu_src.native.wires import references
-from fmu_src.tables.wheel_rail_pair import ACCUMULATED, BINS, table
-from fmu_src.variables import Table
+
+from ..tables.wheel_rail_pair import ACCUMULATED, BINS, table
+from ..variables import Table
+from . import pair_parts
+from .components import Failure
+from .memory import compiled
+from .pair_parts import sizer
+from .wires import references
 
 
 class Start(NamedTuple):

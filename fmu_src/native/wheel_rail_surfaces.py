@@ -14,13 +14,14 @@ from contact.kernels import block, memory
 from contact.kernels.block import ahead
 from contact.kernels.entries.layout import fill
 from contact.kernels.entries.surfaces import is_sound, lay_bench, place_of, prepare_search
-from fmu_src.native import pair_parts
-from fmu_src.native.components import Failure
-from fmu_src.native.memory import compiled
-from fmu_src.native.pair_parts import sizer
-from fmu_src.native.wires import references
-from fmu_src.tables.wheel_rail_surfaces import FRAME, table
-from fmu_src.variables import Table
+
+from ..tables.wheel_rail_surfaces import FRAME, table
+from ..variables import Table
+from . import pair_parts
+from .components import Failure
+from .memory import compiled
+from .pair_parts import sizer
+from .wires import references
 
 _TILTED = FRAME.number("Tilted")
 _STEP_ALONG, _STEP_ANGLE = 1e-6, 2e-6  # [m], [rad] for difference quotients

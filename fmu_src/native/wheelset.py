@@ -9,6 +9,9 @@ import math
 from typing import Any
 
 import numpy as np
+from contact_models.wheelset import dynamics, motion
+from contact_models.wheelset.parameters import WheelsetParameters
+from contact_models.wheelset.ports import CREEPAGE, LOAD, POINTS
 from numba import carray
 
 from contact.geometry import profile
@@ -18,13 +21,11 @@ from contact.kernels.geometry.prepare import facing, rail_origin, take_nodes, tu
 from contact.kernels.memory import lay_search
 from contact.kernels.records import GIVEN, MAX_PATCHES
 from contact.kernels.rows import N_PROFILE_ROWS
-from fmu_src.native.components import OUT_OF_GAUGE
-from fmu_src.native.memory import compiled
-from fmu_src.native.wires import references
-from fmu_src.tables.wheelset import table
-from models.wheelset import dynamics, motion
-from models.wheelset.parameters import WheelsetParameters
-from models.wheelset.ports import CREEPAGE, LOAD, POINTS
+
+from ..tables.wheelset import table
+from .components import OUT_OF_GAUGE
+from .memory import compiled
+from .wires import references
 
 _WHEEL, _RAIL = WheelsetParameters().wheel, profile.rail_60e1(inclination=0.0)
 _WHEEL_ROWS, _RAIL_ROWS = (np.stack((of.y, of.z, of.angle)) for of in (_WHEEL, _RAIL))
@@ -129,7 +130,7 @@ def _report(v, w):
         v[_AT.energy_interface + i], v[_AT.power_interface + i] = w.energy[i], w.powers[i]
     v[_AT.energy_mechanical] = motion.mechanical_energy(w)
     for i in range(3):
-        v[_AT.lateral_acceleration + i] = w.rates[dynamics.State.LATERAL_VELOCITY + i]
+        v[_AT.lateral_acceleration + i] = w.rates[dynamics.StateRow.LATERAL_VELOCITY + i]
     _report_side(
         v, w, dynamics.Side.RIGHT, (_AT.right_geometry_g, _AT.right_geometry_A, _AT.right_creepage_longitudinal,
         _AT.right_load_normal_force, _AT.right_contact_x),

@@ -13,9 +13,10 @@ import contact
 from contact import material
 from contact.kernels.arrays import Size
 from contact.kernels.records import CASE
-from fmu_src.native.component import numbers, places
-from fmu_src.native.memory import compiled, integers_of, numbers_of
-from fmu_src.variables import Table, identifier
+
+from ..variables import Table, identifier
+from .component import numbers, places
+from .memory import compiled, integers_of, numbers_of
 
 #: Inputs and parameters of a contact → members of the record CASE.
 SURFACE = {

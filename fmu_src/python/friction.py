@@ -2,7 +2,8 @@
 
 from contact.friction import LAWS, VELOCITIES, Friction
 from contact.material import Thermal
-from fmu_src.python.values import Values
+
+from .values import SlaveValues
 
 #: Names that rows `friction.…` share with members of `Friction`.
 _NUMBERS = (
@@ -13,7 +14,7 @@ _NUMBERS = (
 _THERMAL = ("conductivity", "density", "heat_capacity", "heat_share")
 
 
-def friction(values: Values) -> Friction:
+def friction(values: SlaveValues) -> Friction:
     """Return the friction of a contact FMU, for WheelRailContact and WheelRailPair."""
     return Friction(
         static=values["friction.coefficient"],

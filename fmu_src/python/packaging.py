@@ -15,29 +15,22 @@ from pathlib import Path
 import pythonfmu
 
 from contact import __version__
-from fmu_src import archive
-from fmu_src.catalogue import Model
-from fmu_src.description import model_description
-from fmu_src.documentation import markdown, page
-from fmu_src.icon import png
-from fmu_src.place import licence
-from fmu_src.python.slave import INTERFACES
 
-#: Packages that may hold the slave: that of an installed wheel, then that of a checkout. The build of a wheel renames the
-#: latter wherever its name stands in one piece (tools/build_backend.py). It is split here so that it stays.
-_PACKAGES = ("contact_fmu", "fmu" + "_src")
+from .. import archive
+from ..catalogue import Model
+from ..description import model_description
+from ..documentation import markdown, page
+from ..icon import png
+from ..place import licence
+from .slave import INTERFACES
 
 _SCRIPT = '''\
 """Slave of the FMU {name}. The code is in the package wheelrail-contact {version}, installed in the host's Python."""
 
 import sys
-from importlib.util import find_spec
 
 try:
-    if find_spec("{packages[0]}"):
-        from {packages[0]}.{module} import {slave}
-    else:
-        from {packages[1]}.{module} import {slave}
+    from contact_fmu.python.{module} import {slave}
 except ImportError as error:
     from pythonfmu.enums import Fmi2Status
     from pythonfmu.fmi2slave import Fmi2Slave
@@ -88,8 +81,7 @@ def _files(model: Model) -> Iterator[tuple[str, bytes]]:
     script = _SCRIPT.format(
         name=name,
         version=__version__,
-        packages=_PACKAGES,
-        module=f"python.{model.name}",
+        module=model.name,
         slave="".join(part.capitalize() for part in model.name.split("_")) + "Slave",
         options=model.all_options,
         guid=guid,

@@ -25,10 +25,11 @@ from pythonfmu.fmi2slave import Fmi2Slave
 
 from contact import __version__
 from contact.errors import ContactError, require_number
-from fmu_src.description import LOG_CATEGORIES, model_description
-from fmu_src.python.ending import release_once
-from fmu_src.python.values import Rows, Values
-from fmu_src.variables import Causality, Kind, Table
+
+from ..description import LOG_CATEGORIES, model_description
+from ..variables import Causality, Kind, Table
+from .ending import release_once
+from .values import Rows, SlaveValues
 
 #: Capabilities of this packaging: attributes of the element CoSimulation.
 INTERFACES = {
@@ -123,7 +124,7 @@ class TableSlave(Fmi2Slave):
         self._said = ""
         self.phase = Phase.INSTANTIATED
         self.time, self.stop_time = 0.0, math.inf
-        self.values = Values(table, [s.first for s in table.scalars])
+        self.values = SlaveValues(table, [s.first for s in table.scalars])
         self.solved = self.values.copy()  # values of the last step, to which the lazy rows belong
         self.lazy_is_stale = False
         self.inputs_are_new = True
@@ -164,7 +165,7 @@ class TableSlave(Fmi2Slave):
 
     # ---------------------------------------------------------------- implemented by a model
 
-    def outputs(self, values: Values, step_size: float) -> Rows:
+    def outputs(self, values: SlaveValues, step_size: float) -> Rows:
         """Return the outputs after a step of `step_size` [s], which is 0 during initialisation.
 
         Raises
@@ -174,7 +175,7 @@ class TableSlave(Fmi2Slave):
         """
         raise NotImplementedError
 
-    def on_demand(self, values: Values) -> Rows:
+    def on_demand(self, values: SlaveValues) -> Rows:
         """Return the `lazy` rows that belong to `values`."""
         raise NotImplementedError
 
@@ -258,7 +259,7 @@ class TableSlave(Fmi2Slave):
             if 0 < self.values[twin] <= self.table.row[twin].maximum:
                 self.values.numbers[self.table.span[of].start] = self.values[twin]
 
-    def _checked_values(self) -> Values:
+    def _checked_values(self) -> SlaveValues:
         """Return the values, with its start in place of a value that is outside its range and is not used.
 
         Raise ContactError for the first parameter, input or state that is used and not finite or outside its range.
@@ -357,8 +358,8 @@ class TableSlave(Fmi2Slave):
             raise ValueError(f"this is not a state of the FMU {self.table.name}; set another one")
         self.phase = Phase(state["phase"])
         self.time, self.stop_time = state["time"], state["stop_time"]
-        self.values = Values(self.table, state["values"].copy())
-        self.solved = Values(self.table, state["solved"].copy())
+        self.values = SlaveValues(self.table, state["values"].copy())
+        self.solved = SlaveValues(self.table, state["solved"].copy())
         self.lazy_is_stale = state["lazy_is_stale"]
         self.inputs_are_new = state["inputs_are_new"]
         self.recall(state["memory"])

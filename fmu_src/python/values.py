@@ -7,13 +7,14 @@ from collections.abc import Mapping
 from typing import Any
 
 from contact.errors import ContactError
-from fmu_src.variables import Table, Variable
+
+from ..variables import Table, Variable
 
 #: Values of some rows by name: a number, or a list for an array.
 Rows = Mapping[str, float | list[float]]
 
 
-class Values:
+class SlaveValues:
     """Values of all scalars. A row is read by name: a number, or a list for an array."""
 
     def __init__(self, table: Table, numbers: list[float]) -> None:
@@ -34,11 +35,11 @@ class Values:
         """Return whether the value of a parameter or input has any effect."""
         return all(self.item(name) in items for name, items in row.used.items())
 
-    def copy(self) -> Values:
+    def copy(self) -> SlaveValues:
         """Return a copy that later calls do not change."""
-        return Values(self.table, self.numbers.copy())
+        return SlaveValues(self.table, self.numbers.copy())
 
-    def updated(self, new: Rows) -> Values:
+    def updated(self, new: Rows) -> SlaveValues:
         """Return a copy with some rows replaced. Raise ContactError if one of these is not finite."""
         result = self.copy()
         for name, value in new.items():

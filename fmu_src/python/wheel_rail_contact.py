@@ -12,11 +12,12 @@ from pythonfmu.enums import Fmi2Status
 import contact
 from contact import Creepage, Material, Separation, Solution, Status
 from contact.damage import evaluate
-from fmu_src.differences import creepage_steps
-from fmu_src.python.friction import friction
-from fmu_src.python.slave import TableSlave
-from fmu_src.python.values import Rows, Values
-from fmu_src.tables.wheel_rail_contact import FLATTEST, table
+
+from ..differences import creepage_steps
+from ..tables.wheel_rail_contact import FLATTEST, table
+from .friction import friction
+from .slave import TableSlave
+from .values import Rows, SlaveValues
 
 _METHODS = contact.methods().tangential
 _CREEPAGES = ("creepage.longitudinal", "creepage.lateral", "creepage.spin")
@@ -31,7 +32,7 @@ class WheelRailContactSlave(TableSlave):
     def __init__(self, points: int, guid: str, elliptic: bool = False, **kwargs: Any) -> None:
         super().__init__(table(points, elliptic), guid, **kwargs)
 
-    def outputs(self, values: Values, step_size: float) -> Rows:
+    def outputs(self, values: SlaveValues, step_size: float) -> Rows:
         """Solve for the present inputs, which are constant over the step."""
         solution = _solve(values, _creepage(values))
         if solution.status in (Status.OUT_OF_RANGE, Status.NOT_CONVERGED) and solution.status != values["status"]:
@@ -71,7 +72,7 @@ class WheelRailContactSlave(TableSlave):
             "total.worn_volume": values["total.worn_volume"] + values["speed"] * volume * step_size,
         }
 
-    def on_demand(self, values: Values) -> Rows:
+    def on_demand(self, values: SlaveValues) -> Rows:
         """Return the derivatives of the forces with respect to the creepages, by central differences."""
         at = np.array([values[name] for name in _CREEPAGES])
         stiffness = np.zeros((3, 3))
@@ -84,11 +85,11 @@ class WheelRailContactSlave(TableSlave):
         return {"creep_stiffness": stiffness.ravel().tolist()}
 
 
-def _creepage(values: Values) -> Creepage:
+def _creepage(values: SlaveValues) -> Creepage:
     return Creepage(*(values[name] for name in _CREEPAGES))
 
 
-def _solve(values: Values, creepage: Creepage) -> Solution:
+def _solve(values: SlaveValues, creepage: Creepage) -> Solution:
     """Solve the contact that `values` describe, with the given creepage."""
     material = Material(
         values["material.shear_modulus"],
@@ -118,7 +119,7 @@ def _solve(values: Values, creepage: Creepage) -> Solution:
     )
 
 
-def _separation(values: Values, conformal: bool) -> Separation:
+def _separation(values: SlaveValues, conformal: bool) -> Separation:
     if values.item("geometry.kind") == "Curvatures":
         return Separation.hertzian(*(max(values[f"geometry.{name}"], FLATTEST) for name in ("A0", "B0")))
     g = values["geometry.g"]

@@ -17,13 +17,14 @@ from contact.geometry.profile import Profile
 from contact.geometry.records import Irregularity, Pose, Velocity
 from contact.geometry.wheelset import Pair
 from contact.pair import Contact, ElasticRail, WheelRailPair
-from fmu_src import profiles
-from fmu_src.python.friction import friction
-from fmu_src.python.slave import TableSlave
-from fmu_src.python.values import Rows, Values
-from fmu_src.tables.solver import DAMAGE_OUTPUTS
-from fmu_src.tables.wheel_rail_pair import ACCUMULATED, BINS, MOTION, OFFSET, PATCH, PATCHES, table
-from fmu_src.variables import Causality
+
+from .. import profiles
+from ..tables.solver import DAMAGE_OUTPUTS
+from ..tables.wheel_rail_pair import ACCUMULATED, BINS, MOTION, OFFSET, PATCH, PATCHES, table
+from ..variables import Causality
+from .friction import friction
+from .slave import TableSlave
+from .values import Rows, SlaveValues
 
 _MOTION = [name for name, *_ in MOTION]
 _NO_CONTACT = [0.0] * len(PATCH)
@@ -41,7 +42,7 @@ class WheelRailPairSlave(TableSlave):
         self.pair: WheelRailPair | None = None
         self.built_with: list[float] = []
 
-    def outputs(self, values: Values, step_size: float) -> Rows:
+    def outputs(self, values: SlaveValues, step_size: float) -> Rows:
         """Solve for the present inputs, which are constant over the step. The first step is a cold start."""
         pair = self._pair(values)
         memory = pair.bench.memory
@@ -109,7 +110,7 @@ class WheelRailPairSlave(TableSlave):
         else:
             self._pair(self.values).bench.memory[:] = np.frombuffer(bytes.fromhex(memory))
 
-    def _pair(self, values: Values) -> WheelRailPair:
+    def _pair(self, values: SlaveValues) -> WheelRailPair:
         """Return the pair with these parameters. If they have changed, it is made anew and gets the memory of the old one."""
         wanted = [values[name] for name in self.parameters]
         if self.pair is None or wanted != self.built_with:
@@ -153,19 +154,19 @@ class WheelRailPairSlave(TableSlave):
         return self.pair
 
 
-def _carried(values: Values) -> dict[str, Any]:
+def _carried(values: SlaveValues) -> dict[str, Any]:
     """Return the argument of `WheelRailPair.solve` for the load, none if the height is given."""
     name = {"NormalForce": "load", "VerticalForce": "vertical"}.get(values.item("load.kind"))
     return {} if name is None else {name: max(values["load.normal_force"], 0.0)}
 
 
-def _rail(values: Values) -> ElasticRail:
+def _rail(values: SlaveValues) -> ElasticRail:
     """Return the rail. A stiffness of 0 is rigid."""
     ky, kz = (values[f"rail.k{axis}"] or math.inf for axis in "yz")
     return ElasticRail(ky, kz, values["rail.preload_y"], values["rail.preload_z"])
 
 
-def _accumulation(values: Values, wheel: Profile, rail: Profile) -> dict[str, Any]:
+def _accumulation(values: SlaveValues, wheel: Profile, rail: Profile) -> dict[str, Any]:
     """Return the options of the pair for damage that accumulates on both profiles, empty if nothing accumulates."""
     law = int(values["accumulation.wear_law"])
     if law == 1:

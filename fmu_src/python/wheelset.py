@@ -4,13 +4,9 @@ from __future__ import annotations
 
 from typing import Any
 
-from contact.geometry import profile
-from fmu_src.python.slave import TableSlave
-from fmu_src.python.values import Rows, Values
-from fmu_src.tables.wheelset import KEYWORDS, table
-from models.wheelset.model import WheelsetModel
-from models.wheelset.parameters import WheelsetParameters
-from models.wheelset.ports import (
+from contact_models.wheelset.model import WheelsetModel
+from contact_models.wheelset.parameters import WheelsetParameters
+from contact_models.wheelset.ports import (
     CHANGE,
     CREEPAGE,
     CURVATURE,
@@ -25,6 +21,12 @@ from models.wheelset.ports import (
     SIDES,
 )
 
+from contact.geometry import profile
+
+from ..tables.wheelset import KEYWORDS, table
+from .slave import TableSlave
+from .values import Rows, SlaveValues
+
 
 class WheelsetSlave(TableSlave):
     """One wheelset whose contact forces are inputs."""
@@ -34,7 +36,7 @@ class WheelsetSlave(TableSlave):
         self.model: WheelsetModel | None = None
         self.built_with: dict[str, Any] = {}
 
-    def outputs(self, values: Values, step_size: float) -> Rows:
+    def outputs(self, values: SlaveValues, step_size: float) -> Rows:
         """Advance the model with constant forces. With a step size of 0, return the outputs at the start."""
         model = self._model(values)
         if step_size > 0.0:
@@ -55,7 +57,7 @@ class WheelsetSlave(TableSlave):
         else:
             self._model(self.values).restore(bytes.fromhex(memory))
 
-    def _model(self, values: Values) -> WheelsetModel:
+    def _model(self, values: SlaveValues) -> WheelsetModel:
         """Return the model with these parameters. If they have changed, it is made anew and is at its start."""
         wanted = {keyword: values[name] for name, keyword in KEYWORDS.items()}
         wanted |= {"substeps": values["resolution.substeps"], "inclination": values["rail.inclination"]}

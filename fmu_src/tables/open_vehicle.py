@@ -8,10 +8,11 @@ from __future__ import annotations
 from collections.abc import Iterable
 from functools import cache
 
-from fmu_src.tables import vehicle
-from fmu_src.tables.wheel_rail_pair import MOTION
-from fmu_src.variables import Table, Variable, output, parameter, signal
-from models.vehicle.declared import VehicleDeclaration, read
+from contact_models.vehicle.declared import VehicleDeclaration, read
+
+from ..variables import Table, Variable, output, parameter, signal
+from . import vehicle
+from .wheel_rail_pair import MOTION
 
 #: What a pair answers.
 ANSWER = tuple(f"{kind}.{axis}" for kind in ("force", "moment") for axis in "xyz")

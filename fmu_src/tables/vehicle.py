@@ -10,10 +10,11 @@ from collections.abc import Iterable
 from dataclasses import replace
 from functools import cache
 
-from fmu_src.tables import wheel_rail_pair
-from fmu_src.tables.solver import DAMAGE_OUTPUTS
-from fmu_src.variables import Attributes, Table, Variable, output, parameter, signal
-from models.vehicle.declared import VehicleDeclaration, read
+from contact_models.vehicle.declared import VehicleDeclaration, read
+
+from ..variables import Attributes, Table, Variable, output, parameter, signal
+from . import wheel_rail_pair
+from .solver import DAMAGE_OUTPUTS
 
 #: File of the track in resources/ (`fmu_src.track`), after those of the profiles.
 TRACK = "track.rows"

@@ -11,8 +11,9 @@ from contact import friction
 from contact.creepage import LARGEST_CREEPAGE
 from contact.kernels.records import MAX_PATCHES
 from contact.separation import LARGEST_ROLLING, LARGEST_TILT
-from fmu_src.tables import solver
-from fmu_src.variables import Attributes, Enumeration, Table, Variable, output, parameter, signal
+
+from ..variables import Attributes, Enumeration, Table, Variable, output, parameter, signal
+from . import solver
 
 GEOMETRY_KIND = Enumeration(
     "GeometryKind",

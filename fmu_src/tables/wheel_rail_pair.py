@@ -10,8 +10,9 @@ from contact import friction
 from contact.accumulation import MAXIMA, SUMS
 from contact.geometry.wheelset import SAMPLES
 from contact.kernels.records import LARGEST_ANGLE, LARGEST_RAIL_ROLL, SLOWEST
-from fmu_src.tables import solver
-from fmu_src.variables import Enumeration, Limits, Table, Variable, output, parameter, signal
+
+from ..variables import Enumeration, Limits, Table, Variable, output, parameter, signal
+from . import solver
 
 SIDE = Enumeration("Side", (("Left", "the left wheel and rail"), ("Right", "the right wheel and rail")))
 LOAD_KIND = Enumeration(

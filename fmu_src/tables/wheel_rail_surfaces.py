@@ -7,8 +7,9 @@ from dataclasses import replace
 from functools import cache
 
 from contact.geometry.surfaces.pair import REACHES, SAMPLES
-from fmu_src.tables import wheel_rail_pair as pair
-from fmu_src.variables import Enumeration, Table, Variable, parameter, signal
+
+from ..variables import Enumeration, Table, Variable, parameter, signal
+from . import wheel_rail_pair as pair
 
 #: Rows of the pair that surfaces do not have. The resource of the rail has its place, and slices have no bins.
 ABSENT = frozenset(

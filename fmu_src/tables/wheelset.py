@@ -10,9 +10,10 @@ from collections.abc import Iterable
 from functools import cache
 from typing import Unpack
 
-from fmu_src.variables import Attributes, Limits, Table, Variable, output, parameter, signal
-from models.wheelset.parameters import WheelsetParameters
-from models.wheelset.ports import POINTS, REACTION, SIDES
+from contact_models.wheelset.parameters import WheelsetParameters
+from contact_models.wheelset.ports import POINTS, REACTION, SIDES
+
+from ..variables import Attributes, Limits, Table, Variable, output, parameter, signal
 
 #: Parameter of the FMU, keyword of `WheelsetParameters`, unit, description, key of _RANGE.
 _PARAMETERS = (

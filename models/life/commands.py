@@ -20,13 +20,14 @@ from contact.cli.document import document
 from contact.cli.output import drawing, reported, require_extra, stop
 from contact.cli.progress import progress_bar
 from contact.errors import ContactError
-from models.life import checkpoint, declared_set, scenario
-from models.life.result import ENDINGS, write_series
-from models.life.scale import Workers
-from models.life.trust import Trust
-from models.life.wear import Life
-from models.life.wear_log import WearLog, time_left
-from models.vehicle.run import VehicleRun
+
+from ..vehicle.run import VehicleRun
+from . import checkpoint, declared_set, scenario
+from .result import ENDINGS, write_series
+from .scale import Workers
+from .trust import Trust
+from .wear import Life
+from .wear_log import WearLog, time_left
 
 _SHOWN = 0.2  # between two changes of the progress bar [s]
 _TOLD = 10.0  # between two lines of a log, where there is no bar [s]
@@ -192,7 +193,7 @@ def _tell(life: Life, folder: Path, as_json: bool) -> None:
 
 def _save(life: Life, folder: Path) -> None:
     """Write result and report of a study, which may go on."""
-    from models.life import wear_report, wear_result
+    from . import wear_report, wear_result
 
     _write(folder, lambda: wear_result.dataset(life), lambda: wear_report.page_of(life))
 
@@ -210,8 +211,8 @@ def _resumable(path: Path) -> str:
 
 def _finish(finished: VehicleRun, folder: Path) -> None:
     """Write result and report to the folder, and delete the checkpoint."""
-    from models.life import result
-    from models.vehicle import report
+    from ..vehicle import report
+    from . import result
 
     _write(folder, lambda: result.dataset(finished), lambda: report.page_of(finished))
     typer.echo(_wrote(folder), err=True)
@@ -228,7 +229,7 @@ def _warn(trust: Trust) -> None:
 
 def _write(folder: Path, dataset: Callable[[], Any], page: Callable[[], str]) -> None:
     """Write result.nc and report.html to the folder. A command that is interrupted leaves no broken file."""
-    from models.life.result import write
+    from .result import write
 
     folder.mkdir(parents=True, exist_ok=True)
     part = folder / "written.part"

@@ -14,10 +14,11 @@ import numpy as np
 from contact.errors import ContactError, require_number
 from contact.geometry.profile import Profile
 from contact.material import STEEL
-from models.life import scenario
-from models.life.declared import build, read_table
-from models.life.flange import Flange
-from models.life.scenario import Scenario
+
+from . import scenario
+from .declared import build, read_table
+from .flange import Flange
+from .scenario import Scenario
 
 _GRAVITY = 9.81  # [m/s²]
 #: A study in which the depth allows less than this share of the wished step stops.

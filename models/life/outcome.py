@@ -5,9 +5,10 @@ from __future__ import annotations
 from typing import NamedTuple
 
 from contact.accumulation import Histogram
-from models.life.scenario import Scenario
-from models.life.trust import Trust
-from models.vehicle.run import VehicleRun
+
+from ..vehicle.run import VehicleRun
+from .scenario import Scenario
+from .trust import Trust
 
 
 class Outcome(NamedTuple):

@@ -12,8 +12,9 @@ from contact import plot
 from contact.accumulation import Histogram
 from contact.study.page import faint, html_of, picture
 from contact.study.table import Table, number
-from models.life.scenario import Scenario
-from models.life.trust import Trust
+
+from .scenario import Scenario
+from .trust import Trust
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

@@ -8,8 +8,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from contact.geometry.profile import Profile
-from models.life.flange import Flange
-from models.life.part import Wheel
+
+from .flange import Flange
+from .part import Wheel
 
 Array = NDArray[np.float64]
 

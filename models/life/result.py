@@ -13,7 +13,8 @@ from typing import Any
 from contact.accumulation import Histogram, from_xarray, to_xarray
 from contact.errors import ContactError
 from contact.study.files import require_ending
-from models.vehicle.run import BALANCE, VehicleRun
+
+from ..vehicle.run import BALANCE, VehicleRun
 
 FORMAT = "wheelrail-contact run 1"
 #: Endings of files with the time series.
@@ -75,11 +76,11 @@ def histogram(stored: Any, *key: str) -> Histogram:
     if stored.attrs.get("format") != FORMAT:
         raise ContactError(f"format = {stored.attrs.get('format')!r}: the dataset is not a {FORMAT}")
     prefix = _prefix(key)
-    own = stored[[name for name in stored.variables if str(name).startswith(prefix)]]
-    names = {name: str(name).removeprefix(prefix) for name in [*own.variables, *own.dims]}
-    own = own.rename({name: new for name, new in names.items() if name in own.variables or name in own.dims})
-    own.attrs = {name.removeprefix(prefix): value for name, value in stored.attrs.items() if name.startswith(prefix)}
-    return from_xarray(own)
+    part = stored[[name for name in stored.variables if str(name).startswith(prefix)]]
+    names = {name: str(name).removeprefix(prefix) for name in [*part.variables, *part.dims]}
+    part = part.rename({name: new for name, new in names.items() if name in part.variables or name in part.dims})
+    part.attrs = {name.removeprefix(prefix): value for name, value in stored.attrs.items() if name.startswith(prefix)}
+    return from_xarray(part)
 
 
 def write(whole: Any, path: str | PathLike[str]) -> None:

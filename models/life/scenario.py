@@ -20,15 +20,16 @@ from contact.geometry.surfaces import WheelSurface
 from contact.material import STEEL, Material
 from contact.registry import DEFAULT_NORMAL, DEFAULT_TANGENTIAL, lookup
 from contact.solver import N_ELEMENTS, N_STRIPS, require_resolution
-from models.life.declared import build, read_table
-from models.life.slices import Rails
-from models.life.torque import Torque
-from models.life.track import Speed, Track
-from models.life.uneven import Wheels
-from models.vehicle.declared import VehicleDeclaration
-from models.vehicle.declared import read as read_vehicle
-from models.vehicle.sections import RailSection
-from models.vehicle.simulation import LONGEST_PACE, PACE, SIDES
+
+from ..vehicle.declared import VehicleDeclaration
+from ..vehicle.declared import read as read_vehicle
+from ..vehicle.sections import RailSection
+from ..vehicle.simulation import LONGEST_PACE, PACE, SIDES
+from .declared import build, read_table
+from .slices import Rails
+from .torque import Torque
+from .track import Speed, Track
+from .uneven import Wheels
 
 #: Law by which profiles wear if a scenario gives neither a law nor constants of Archard (docs/understand/wear.md, Wear laws).
 WEAR_LAW: WearLaw = "usfd"

@@ -9,8 +9,9 @@ from typing import Any, TypeVar
 
 from contact.errors import ContactError, require_number
 from contact.geometry.surfaces import RailSurface, WheelSurface
-from models.vehicle.sections import RailSection
-from models.vehicle.simulation import SIDES
+
+from ..vehicle.sections import RailSection
+from ..vehicle.simulation import SIDES
 
 Surface = TypeVar("Surface", RailSurface, WheelSurface)
 

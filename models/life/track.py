@@ -10,7 +10,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from contact.errors import ContactError, require_number
-from models.life.spectra import CHANNELS, Irregularities
+
+from .spectra import CHANNELS, Irregularities
 
 Array = NDArray[np.float64]
 

@@ -105,7 +105,7 @@ class Trust:
 
 @dataclass(frozen=True, slots=True)
 class StepError:
-    """What the step of the integration changes, estimated by half the step on a piece of the run.
+    """Error of the time integration, estimated by half the step on the first part of the run.
 
     Attributes
     ----------
@@ -122,7 +122,7 @@ class StepError:
 
     @property
     def sentence(self) -> str:
-        """What it says, in plain words."""
+        """The error as a sentence."""
         return (
             f"The step changes the energy dissipated in the contacts by {100.0 * self.energy:+.2g} % and the worn volume by "
             f"{100.0 * self.volume:+.2g} %, estimated by half the step over the first {self.length:.0f} m."

@@ -10,7 +10,8 @@ from contact.errors import ContactError
 from contact.geometry.profile import Profile
 from contact.geometry.surfaces import Flat, Polygon, WheelSurface
 from contact.geometry.surfaces.deviation import Deviation
-from models.life.slices import WheelSlices, require_side
+
+from .slices import WheelSlices, require_side
 
 
 @dataclass(frozen=True, kw_only=True)

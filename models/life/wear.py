@@ -15,14 +15,15 @@ from contact.accumulation import Histogram
 from contact.errors import ContactError
 from contact.geometry import conicity
 from contact.geometry.profile import Profile
-from models.life.declared_set import ScenarioSet
-from models.life.outcome import Outcome, outcome
-from models.life.part import Part, Rail, Wheel
-from models.life.reprofiling import cut, forecast
-from models.life.scale import Workers
-from models.life.scenario import Scenario
-from models.life.trust import TRUST, Trust, worst
-from models.wheelset.ports import SIDES
+
+from ..wheelset.ports import SIDES
+from .declared_set import ScenarioSet
+from .outcome import Outcome, outcome
+from .part import Part, Rail, Wheel
+from .reprofiling import cut, forecast
+from .scale import Workers
+from .scenario import Scenario
+from .trust import TRUST, Trust, worst
 
 Array = NDArray[np.float64]
 
@@ -193,7 +194,7 @@ class Life:
         if share.weight > 0.0:
             wheels = tuple(self.wheels[self.plan.group(name)].present for name in scenario.wheel_names)
         worn = (self.rails.get((share.line, side)) for side in SIDES)
-        rails = tuple(own if rail is None else rail.present for rail, own in zip(worn, scenario.rails, strict=True))
+        rails = tuple(given if rail is None else rail.present for rail, given in zip(worn, scenario.rails, strict=True))
         scenario = scenario.reprofiled(self.turned_off) if share.weight > 0.0 else scenario
         return scenario.worn(wheels, rails, number)
 
@@ -207,9 +208,9 @@ class Life:
             zip(self.plan.declared.scenarios, self.plan.weights, found, strict=True)
         ):
             for group, wheel in self.wheels.items():
-                own = [h for name, h in each.wheels.items() if self.plan.group(name) == group]
+                members = [h for name, h in each.wheels.items() if self.plan.group(name) == group]
                 if weight > 0.0:
-                    together = reduce(add, own)
+                    together = reduce(add, members)
                     damage[wheel.name][k] = together.scaled(weight / together.distance)
             for side, histogram in each.rails.items():
                 rail, passes = self.rails.get((share.line, side)), self.plan.passes(k, each.axle_load)
@@ -225,7 +226,7 @@ class Life:
 
     @property
     def trust(self) -> Trust:
-        """How far the runs of all steps can be trusted."""
+        """Measures of trust of the runs of all steps, the worst of each."""
         return worst([Trust(*(float(row[list(COLUMNS).index(name)]) for name in TRUST)) for row in self.rows])
 
     @staticmethod

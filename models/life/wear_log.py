@@ -9,7 +9,7 @@ from collections.abc import Callable
 
 import typer
 
-from models.life.wear import Life
+from .wear import Life
 
 _WRITING = 0.1  # largest share of the time for interim reports
 _RECENT = 3  # steps from which the time left is estimated

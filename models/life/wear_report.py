@@ -11,10 +11,11 @@ import numpy as np
 from contact import plot
 from contact.study.page import document, faint, html_of
 from contact.study.table import Table, number
-from models.life.part import DENSITY, Part, displacement
-from models.life.report import illustrated, warned
-from models.life.wear import Life
-from models.wheelset.ports import SIDES
+
+from ..wheelset.ports import SIDES
+from .part import DENSITY, Part, displacement
+from .report import illustrated, warned
+from .wear import Life
 
 _KM = 1e-3
 _MM = 1e3

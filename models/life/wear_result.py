@@ -9,8 +9,8 @@ from typing import Any
 
 import numpy as np
 
-from models.life.part import Part
-from models.life.wear import COLUMNS, Life
+from .part import Part
+from .wear import COLUMNS, Life
 
 FORMAT = "wheelrail-contact wear run 2"
 

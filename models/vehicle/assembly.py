@@ -8,8 +8,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from contact.errors import ContactError
-from models.vehicle.declared import Body, Damper, Joint, Spring, Stop, VehicleDeclaration, Wheelset
-from models.vehicle.kernels.layout import BODY, ELEMENT, LINK, Axis, Kind
+
+from .declared import Body, Damper, Joint, Spring, Stop, VehicleDeclaration, Wheelset
+from .kernels.layout import BODY, ELEMENT, LINK, Axis, Kind
 
 Array = NDArray[np.float64]
 

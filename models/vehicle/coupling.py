@@ -11,10 +11,11 @@ from numpy.typing import NDArray
 from contact.core import pack
 from contact.errors import ContactError
 from contact.kernels.arrays import Motions
-from models.vehicle.kernels import motion
-from models.vehicle.kernels.frames import speed_at
-from models.vehicle.kernels.layout import Book, Model, Scratch, State
-from models.vehicle.simulation import SIDES, Simulation
+
+from .kernels import motion
+from .kernels.frames import speed_at
+from .kernels.layout import Book, Model, Scratch, State
+from .simulation import SIDES, Simulation
 
 Array = NDArray[np.float64]
 
@@ -79,7 +80,7 @@ class OpenVehicle:
 
     def ask(self) -> Array:
         """Return the questions at the present state, shape (wheels, len(QUESTION))."""
-        motion.ask(*self._arguments, self._speed)
+        motion.prepare_contacts(*self._arguments, self._speed)
         scratch = self._simulation.scratch
         given = scratch.given.view(np.float64).reshape(scratch.given.size, -1)
         return np.column_stack((given, scratch.seats["friction"]))
@@ -119,6 +120,6 @@ class OpenVehicle:
 
     @property
     def residual(self) -> float:
-        """What the integration has lost, over the dissipation in the contacts [-]."""
+        """Residual of the energy balance over the dissipation in the contacts [-]."""
         books = self._simulation.state.books
         return float(books[Book.RESIDUAL] / books[Book.DISSIPATED]) if books[Book.DISSIPATED] > 0.0 else 0.0

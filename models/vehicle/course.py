@@ -9,8 +9,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from contact.errors import ContactError
-from models.life.track import RAIL_DISTANCE, Track
-from models.vehicle.kernels.layout import Row
+
+from ..life.track import RAIL_DISTANCE, Track
+from .kernels.layout import TrackRow
 
 Array = NDArray[np.float64]
 
@@ -54,27 +55,27 @@ def lay(track: Track, length: float, speed: Callable[[float], float], seed: tupl
             f"{whole / MOST_PLACES:.3g} m apart, or a shorter length"
         )
     s = np.arange(-BEYOND, length + BEYOND + 0.5 * spacing, spacing)
-    rows = np.zeros((len(Row), s.size))
-    rows[Row.PLACE] = s
+    rows = np.zeros((len(TrackRow), s.size))
+    rows[TrackRow.PLACE] = s
     plan = np.zeros((2, s.size))
     for curve in track.curves:
         share = np.array([curve.share(place) for place in s])
         plan[0] += share / curve.radius
         plan[1] += share * math.asin(curve.cant / RAIL_DISTANCE)
     curvature, cant = (_rounded(row, round(ROUNDING / spacing)) for row in plan)
-    rows[Row.CURVATURE], rows[Row.CANT] = curvature, cant
-    rows[Row.CANT_SLOPE] = np.gradient(cant, spacing)
+    rows[TrackRow.CURVATURE], rows[TrackRow.CANT] = curvature, cant
+    rows[TrackRow.CANT_SLOPE] = np.gradient(cant, spacing)
     direction = _integral(0.5 * (curvature[1:] + curvature[:-1]), spacing)
     middle = direction[:-1] + spacing * (0.375 * curvature[:-1] + 0.125 * curvature[1:])
-    rows[Row.DIRECTION] = direction
-    for row, part in ((Row.X, np.cos), (Row.Y, np.sin)):  # Simpson's rule
+    rows[TrackRow.DIRECTION] = direction
+    for row, part in ((TrackRow.X, np.cos), (TrackRow.Y, np.sin)):  # Simpson's rule
         rows[row] = _integral((part(direction[:-1]) + 4.0 * part(middle) + part(direction[1:])) / 6.0, spacing)
-    rows[Row.SPEED] = [speed(place) for place in s]
+    rows[TrackRow.SPEED] = [speed(place) for place in s]
     lateral, vertical, roll, gauge = track.channels(seed, s, settling)
-    for row, side in ((Row.RIGHT_Y, 1.0), (Row.LEFT_Y, -1.0)):
+    for row, side in ((TrackRow.RIGHT_Y, 1.0), (TrackRow.LEFT_Y, -1.0)):
         rows[row : row + 2] = lateral + 0.5 * side * gauge
         rows[row + 2 : row + 4] = vertical + _HALF_BASE * side * roll
-    rows[Row.RIGHT_FRICTION], rows[Row.LEFT_FRICTION] = track.friction_at(s)
+    rows[TrackRow.RIGHT_FRICTION], rows[TrackRow.LEFT_FRICTION] = track.friction_at(s)
     return rows
 
 

@@ -9,9 +9,10 @@ import numpy as np
 
 from contact.core import pack
 from contact.kernels.arrays import Bench, Search
-from models.vehicle.kernels import crew, motion
-from models.vehicle.kernels.benches import Benches
-from models.vehicle.kernels.layout import Model, Scratch, State
+
+from .kernels import crew, motion
+from .kernels.benches import Benches
+from .kernels.layout import Model, Scratch, State
 
 
 class Crew:
@@ -31,7 +32,8 @@ class Crew:
         kind = Benches[Search]
         self._arrays = pack(Model, model), pack(State, state), pack(kind, benches), pack(Scratch, scratch)
         self._helpers = [
-            pack(kind, benches._replace(shared=own, scratch=np.zeros_like(benches.scratch))) for own in memories[1:]
+            pack(kind, benches._replace(shared=memory, scratch=np.zeros_like(benches.scratch)))
+            for memory in memories[1:]
         ]
         self._n_wheels = scratch.wheels.size
         self._counters = np.zeros(crew.N_LINE, np.int64)
@@ -42,8 +44,8 @@ class Crew:
         if not self._helpers:
             return int(motion.advance(*self._arrays, h, steps))
         scratch, shared = self._arrays[-1], (self._counters, self._codes)
-        self._counters[crew.Line.NEXT], self._counters[crew.Line.ENDED] = self._n_wheels, 0  # the list is closed
-        helpers = [threading.Thread(target=crew.serve, args=(own, scratch, *shared)) for own in self._helpers]
+        self._counters[crew.Counter.NEXT], self._counters[crew.Counter.ENDED] = self._n_wheels, 0  # the list is closed
+        helpers = [threading.Thread(target=crew.serve, args=(memory, scratch, *shared)) for memory in self._helpers]
         for helper in helpers:
             helper.start()
         code = crew.lead(*self._arrays, *shared, h, steps)

@@ -11,13 +11,14 @@ from numpy.typing import NDArray
 from contact.errors import ContactError
 from contact.friction import Friction
 from contact.geometry.profile import Profile
-from models.life.track import Curve, Track
-from models.vehicle.course import lay
-from models.vehicle.declared import VehicleDeclaration
-from models.vehicle.kernels.frames import carried, lay_frames
-from models.vehicle.kernels.layout import Axis, Book
-from models.vehicle.linear import coordinates
-from models.vehicle.simulation import ContactOptions, Simulation
+
+from ..life.track import Curve, Track
+from .course import lay
+from .declared import VehicleDeclaration
+from .kernels.frames import carried, lay_frames
+from .kernels.layout import Axis, Book
+from .linear import coordinates
+from .simulation import ContactOptions, Simulation
 
 Array = NDArray[np.float64]
 

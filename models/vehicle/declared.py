@@ -8,7 +8,8 @@ from pathlib import Path
 from typing import TypeVar
 
 from contact.errors import ContactError, require_number, suggestion
-from models.life.declared import build, read_table
+
+from ..life.declared import build, read_table
 
 #: Folder of the vehicles that are included, one file each.
 INCLUDED = Path(__file__).parent / "included"

@@ -12,8 +12,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from models.life.track import Track
-from models.vehicle.assess import band_pass, low_pass, prudhomme, sliding_mean
+from ..life.track import Track
+from .assess import band_pass, low_pass, prudhomme, sliding_mean
 
 Array = NDArray[np.float64]
 
@@ -45,7 +45,7 @@ class Section:
 
     @property
     def name(self) -> str:
-        """What it is, and where."""
+        """Kind and place of the section."""
         what = f"curve of {1.0 / abs(self.curvature):.0f} m" if self.curvature else "straight"
         return f"{what}, {self.begin:.0f} to {self.end:.0f} m" + ("" if self.whole else " (short)")
 

@@ -11,11 +11,12 @@ from numpy.typing import NDArray
 from contact.errors import ContactError, require_number
 from contact.friction import Friction
 from contact.geometry.profile import Profile
-from models.life.track import Track
-from models.vehicle.course import lay
-from models.vehicle.declared import VehicleDeclaration
-from models.vehicle.kernels.layout import Axis
-from models.vehicle.simulation import ContactOptions, Simulation
+
+from ..life.track import Track
+from .course import lay
+from .declared import VehicleDeclaration
+from .kernels.layout import Axis
+from .simulation import ContactOptions, Simulation
 
 Array = NDArray[np.float64]
 

@@ -9,7 +9,8 @@ from contact import workspace
 from contact.accumulation import MAXIMA, SUMS, Histogram
 from contact.kernels.memory import Ledger
 from contact.material import Material
-from models.vehicle.kernels.benches import Benches, bins
+
+from .kernels.benches import Benches, bins
 
 Array = NDArray[np.float64]
 
@@ -35,8 +36,8 @@ def fill(
     """Replace the damage of the histograms of a wheel and its rail by that of the ledger of wheel number `wheel`."""
     stored = bins(benches, wheel)
     first = min(each.edges[0] for each in histograms)
-    for own, rows in zip(histograms, stored, strict=True):
-        start = round((own.edges[0] - first) / own.width)
-        inside = slice(start, start + own.edges.size - 1)
+    for histogram, rows in zip(histograms, stored, strict=True):
+        start = round((histogram.edges[0] - first) / histogram.width)
+        inside = slice(start, start + histogram.edges.size - 1)
         values = dict(zip(_NAMES, rows[:, inside], strict=True))
-        own.restore(values, distance, methods, {steel})
+        histogram.restore(values, distance, methods, {steel})

@@ -14,8 +14,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from contact.errors import ContactError
-from models.vehicle.kernels.layout import Axis
-from models.vehicle.simulation import Simulation
+
+from ..wheelset.stability import onset
+from .kernels.layout import Axis
+from .simulation import Simulation
 
 Array = NDArray[np.float64]
 
@@ -163,17 +165,6 @@ def critical_speed(
     ContactError
         If the bounds are not in order.
     """
-    low, high = bounds
-    if not 0.0 < low < high:
+    if not 0.0 < bounds[0] < bounds[1]:
         raise ContactError(f"bounds = {bounds} are not in order")
-    if growth(at_speed(high), amplitude) <= NOISE:
-        return math.inf
-    if growth(at_speed(low), amplitude) > NOISE:
-        return low
-    while high - low > tolerance:
-        middle = 0.5 * (low + high)
-        if growth(at_speed(middle), amplitude) > NOISE:
-            high = middle
-        else:
-            low = middle
-    return 0.5 * (low + high)
+    return onset(lambda speed: growth(at_speed(speed), amplitude) > NOISE, bounds, tolerance)

@@ -12,12 +12,13 @@ import numpy as np
 from contact import plot
 from contact.study.page import document, faint, html_of
 from contact.study.table import Table, number
-from models.life.report import damage_of, declaration, illustrated, trusted, warned
-from models.vehicle import assess, drawing, en14363
-from models.vehicle.ledgers import BODIES
-from models.vehicle.run import BALANCE, CONICITY_AT, DECELERATION, RIGHT_BELOW, VehicleRun
-from models.vehicle.simulation import SIDES
-from models.wheelset.ports import INWARDS
+
+from ..life.report import damage_of, declaration, illustrated, trusted, warned
+from ..wheelset.ports import INWARDS
+from . import assess, drawing, en14363
+from .ledgers import BODIES
+from .run import BALANCE, CONICITY_AT, DECELERATION, RIGHT_BELOW, VehicleRun
+from .simulation import SIDES
 
 #: Ratio of the conicities at two amplitudes from which on the report warns.
 UNEQUAL = 2.0

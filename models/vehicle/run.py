@@ -13,16 +13,17 @@ from numpy.typing import NDArray
 from contact.accumulation import Histogram
 from contact.errors import ContactError
 from contact.geometry import conicity
-from models.life.scenario import Scenario
-from models.life.track import Track
-from models.life.trust import StepError, Trust
-from models.vehicle import linear
-from models.vehicle.course import SPACING, lay
-from models.vehicle.declared import VehicleDeclaration
-from models.vehicle.hunting import Hunting, fall
-from models.vehicle.kernels.layout import Axis, Book, Frame, Row, Sum
-from models.vehicle.ledgers import BODIES, fill, ledger
-from models.vehicle.simulation import SIDES, ContactOptions, Simulation
+
+from ..life.scenario import Scenario
+from ..life.track import Track
+from ..life.trust import StepError, Trust
+from . import linear
+from .course import SPACING, lay
+from .declared import VehicleDeclaration
+from .hunting import Hunting, fall
+from .kernels.layout import Axis, Book, Sum, TrackFrame, TrackRow
+from .ledgers import BODIES, fill, ledger
+from .simulation import SIDES, ContactOptions, Simulation
 
 Array = NDArray[np.float64]
 
@@ -249,11 +250,11 @@ class VehicleRun:
         state, frames = simulation.state, simulation.scratch.frames
         s = simulation.distance
         track = simulation.model.track
-        track = track[:, np.searchsorted(track[Row.PLACE], s, "right") - 1]
-        row = [s, simulation.time, track[Row.SPEED], track[Row.CURVATURE], track[Row.CANT]]
+        track = track[:, np.searchsorted(track[TrackRow.PLACE], s, "right") - 1]
+        row = [s, simulation.time, track[TrackRow.SPEED], track[TrackRow.CURVATURE], track[TrackRow.CANT]]
         rates = (state.u[:, Axis.Y] - self._before[:, Axis.Y]) / elapsed
-        turning = frames[:, Frame.RATE_Z] * state.u[:, Axis.X] - frames[:, Frame.RATE_X] * state.u[:, Axis.Z]
-        felt = rates + turning - 9.81 * frames[:, Frame.SIN_CANT]
+        turning = frames[:, TrackFrame.RATE_Z] * state.u[:, Axis.X] - frames[:, TrackFrame.RATE_X] * state.u[:, Axis.Z]
+        felt = rates + turning - 9.81 * frames[:, TrackFrame.SIN_CANT]
         for i, q in enumerate(state.q):
             row += [q[Axis.Y], q[Axis.Z], q[Axis.ROLL], q[Axis.YAW], felt[i]]
         for sums, wheel in zip(state.sums, simulation.wheels, strict=True):
@@ -302,7 +303,7 @@ class VehicleRun:
 
     @property
     def trust(self) -> Trust:
-        """How far the run can be trusted."""
+        """Measures of trust of the run: energy balance, impacts, doubtful contacts."""
         books, declared = self.simulation.state.books, self.scenario.declared
         dissipated = float(books[Book.DISSIPATED])
         return Trust(

@@ -21,16 +21,17 @@ from contact.material import STEEL, Material
 from contact.pair import WheelRailPair
 from contact.registry import DEFAULT_NORMAL, DEFAULT_TANGENTIAL
 from contact.solver import N_ELEMENTS, N_STRIPS
-from models.vehicle.assembly import Assembly, assemble
-from models.vehicle.crew import Crew
-from models.vehicle.declared import VehicleDeclaration
-from models.vehicle.kernels import motion
-from models.vehicle.kernels.benches import Benches, gather
-from models.vehicle.kernels.between import held
-from models.vehicle.kernels.frames import speed_at
-from models.vehicle.kernels.layout import Book, Model, Scratch, State, Sum, scratch
-from models.vehicle.sections import RailSection, require_apart
-from models.vehicle.uneven import Stretch, Uneven
+
+from .assembly import Assembly, assemble
+from .crew import Crew
+from .declared import VehicleDeclaration
+from .kernels import motion
+from .kernels.benches import Benches, gather
+from .kernels.between import held
+from .kernels.frames import speed_at
+from .kernels.layout import Book, Model, Scratch, State, Sum, scratch
+from .sections import RailSection, require_apart
+from .uneven import Stretch, UnevenWheels
 
 Array = NDArray[np.float64]
 
@@ -151,16 +152,16 @@ class Simulation:
         self._place(start)
         self.rotations = np.zeros(axles)
         arrays = self.model, self.state, self.benches, self.scratch
-        self._stepper: Crew | Uneven
+        self._stepper: Crew | UnevenWheels
         self._uneven_memories: dict[str, Array] = {}
         if uneven or sections:
             stretches = self._stretches(wheels, rails, uneven or {}, sections)
-            for k, own in stretches.items():
-                for number, stretch in enumerate(own):
+            for k, pieces in stretches.items():
+                for number, stretch in enumerate(pieces):
                     self._uneven_memories[f"uneven.{k}.{number}"] = stretch.pair.bench.memory
                     for name, value in members.items():
                         stretch.pair.bench.case[name] = value
-            self._stepper = Uneven(*arrays, stretches, self.rotations)
+            self._stepper = UnevenWheels(*arrays, stretches, self.rotations)
         else:
             self._stepper = Crew(*arrays, [pair.bench for pair in self._pairs[:threads]])
 
@@ -179,18 +180,18 @@ class Simulation:
         found: dict[int, list[Stretch]] = {}
         for k, (wheel, rail) in enumerate(zip(wheels, rails, strict=True)):
             sizes = self._sizes(SIDES[k % 2])
-            own = []
+            pieces = []
             for section in sections:
                 if section.side == sizes["side"]:
                     if k < len(SIDES):
                         section.require_continued(wheel, rail, sizes)
                     surfaces = section.pair(uneven.get(k, wheel), rail, sizes)
-                    own.append(Stretch(self._solver(surfaces), surfaces, section.begin, section.end, section.at))
+                    pieces.append(Stretch(self._solver(surfaces), surfaces, section.begin, section.end, section.at))
             if k in uneven:
                 surfaces = SurfacePair(uneven[k], rail, **sizes, tilted=True)
-                own.append(Stretch(self._solver(surfaces), surfaces))
-            if own:
-                found[k] = own
+                pieces.append(Stretch(self._solver(surfaces), surfaces))
+            if pieces:
+                found[k] = pieces
         return found
 
     def _sizes(self, side: str) -> dict[str, Any]:
@@ -217,7 +218,7 @@ class Simulation:
         )
 
     def _place(self, start: float) -> None:
-        """Put the vehicle on the rails at rest in its nominal place, rolling."""
+        """Place the vehicle on the rails in its nominal position, rolling without other motion."""
         speed = float(speed_at(self.model.track, start))
         heights = np.zeros(self.model.wheelsets.size)
         for number, i in enumerate(self.model.wheelsets):
@@ -245,13 +246,13 @@ class Simulation:
 
     @property
     def wheels(self) -> NDArray:
-        """What every wheel did at the last step, records WHEEL: axle by axle, the right one before the left one."""
+        """Forces, power and damage of every wheel at the last step: records WHEEL by axle, right before left."""
         return self.scratch.wheels
 
     @property
     def on_surfaces(self) -> NDArray[np.bool_]:
         """Whether the contact of each wheel was on surfaces at the last step, where no damage is counted."""
-        if isinstance(self._stepper, Uneven):
+        if isinstance(self._stepper, UnevenWheels):
             return self._stepper.on_surfaces
         return np.zeros(self.scratch.wheels.size, np.bool_)
 

@@ -17,10 +17,11 @@ from contact.core import pack
 from contact.geometry.surfaces import SurfacePair
 from contact.kernels.arrays import Bench, Motions, Search, SurfaceSearch
 from contact.pair import WheelRailPair
-from models.vehicle.kernels import motion, wheels
-from models.vehicle.kernels.benches import Benches
-from models.vehicle.kernels.frames import speed_at
-from models.vehicle.kernels.layout import Axis, Book, Model, Scratch, State
+
+from .kernels import motion, wheels
+from .kernels.benches import Benches
+from .kernels.frames import speed_at
+from .kernels.layout import Axis, Book, Model, Scratch, State
 
 Array = NDArray[np.float64]
 
@@ -35,7 +36,7 @@ class Stretch(NamedTuple):
     origin: float = 0.0  # place at which the station of the slices is 0 [m]
 
 
-class Uneven:
+class UnevenWheels:
     """Advances a vehicle of which some wheels, or the rails at some places, are surfaces.
 
     Parameters
@@ -74,7 +75,7 @@ class Uneven:
         model, state, _, scratch = self._arrays
         for _ in range(steps):
             speed = float(speed_at(model.track, state.books[Book.DISTANCE]))
-            motion.ask(*self._moving, speed)
+            motion.prepare_contacts(*self._moving, speed)
             for w in range(scratch.wheels.size):
                 if self._solve(w) < 0:
                     return -1 - w
@@ -84,7 +85,7 @@ class Uneven:
         return 0
 
     def _solve(self, w: int) -> int:
-        """Solve the contact of wheel `w` where it is; return as `kernels.wheels.press_one`."""
+        """Solve the contact of wheel `w` where it is; return as `kernels.wheels.solve_contact`."""
         model, state, _, _ = self._arrays
         place = float(state.books[Book.DISTANCE]) + float(model.bodies["place"][model.wheelsets[w // 2]])
         here = next((each for each in self._stretches[w] if each.begin <= place < each.end), None)
@@ -102,6 +103,6 @@ class Uneven:
         _, _, benches, scratch = self._arrays
         if here is not None:
             bench = pack(Bench[SurfaceSearch], here.pair.bench)
-            return lambda: int(wheels.press_one(bench, scratch.given[w], scratch.seats[w], scratch.wheels[w]))
+            return lambda: int(wheels.solve_contact(bench, scratch.given[w], scratch.seats[w], scratch.wheels[w]))
         every, rows = pack(Benches[Search], benches), pack(Scratch, scratch)
         return lambda: int(wheels.follow_wheel(every, rows, w))

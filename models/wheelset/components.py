@@ -10,9 +10,10 @@ from numpy.typing import ArrayLike, NDArray
 import contact
 from contact.errors import ContactError
 from contact.material import Material
-from models.wheelset.model import WheelsetModel
-from models.wheelset.parameters import WheelsetParameters
-from models.wheelset.ports import CREEPAGE, CURVATURE, GAP, LOAD, POINTS, REPORT, SIDES
+
+from .model import WheelsetModel
+from .parameters import WheelsetParameters
+from .ports import CREEPAGE, CURVATURE, GAP, LOAD, POINTS, REPORT, SIDES
 
 Array = NDArray[np.float64]
 

@@ -21,12 +21,13 @@ from contact.cli import options as opt
 from contact.cli.output import deliver, drawing, reported, stop
 from contact.geometry.wheelset import Pair, Pose
 from contact.solution import Solution
-from models.wheelset import master
-from models.wheelset.components import Component, DirectContact, SolveOptions, direct
-from models.wheelset.master import History, Scheme
-from models.wheelset.parameters import WheelsetParameters
-from models.wheelset.ports import CONTACT_PORTS, INWARDS, SIDES, WHEELSET_PORTS
-from models.wheelset.stability import critical_speed
+
+from . import master
+from .components import Component, DirectContact, SolveOptions, direct
+from .master import History, Scheme
+from .parameters import WheelsetParameters
+from .ports import CONTACT_PORTS, INWARDS, SIDES, WHEELSET_PORTS
+from .stability import critical_speed
 
 Array = NDArray[np.float64]
 
@@ -88,7 +89,7 @@ def _fmus(
 ) -> tuple[Component, Sequence[Component]]:
     """Return the three FMUs, initialised. `stack` frees them."""
     try:
-        from models.wheelset.fmu import FmuComponent
+        from .fmu import FmuComponent
     except ImportError as missing:
         stop(f"{missing}; pip install 'wheelrail-contact[fmu]', or use --python", 1)
     paths = [folder / "python" / f"{name}.fmu" for name in FMUS]

@@ -14,7 +14,7 @@ from contact.core import entry, kernel
 from contact.kernels.arrays import Matrix, Numbers
 
 
-class Frame(IntEnum):
+class FrameRow(IntEnum):
     """A contact frame: origin relative to the wheelset's centre in track axes [m], and contact angle [rad]."""
 
     X = 0
@@ -38,7 +38,7 @@ class Side(IntEnum):
     LEFT = 1
 
 
-class State(IntEnum):
+class StateRow(IntEnum):
     """State of a wheelset [m, rad, m/s, rad/s, rad/s]. The spin is positive when rolling forward."""
 
     LATERAL = 0
@@ -71,13 +71,13 @@ class Energy(IntEnum):
     DAMPER = 2  # energy dissipated in the suspension
 
 
-N_STATE, N_CONSTANTS, N_ENERGY = len(State), len(Constant), len(Energy)
+N_STATE, N_CONSTANTS, N_ENERGY = len(StateRow), len(Constant), len(Energy)
 
 
 @entry
 def arm(frame: Numbers) -> float:
     """Return the roll moment about the centre per unit of -N, y cos δ + z sin δ [m] (5)."""
-    return frame[Frame.Y] * math.cos(frame[Frame.ANGLE]) + frame[Frame.Z] * math.sin(frame[Frame.ANGLE])
+    return frame[FrameRow.Y] * math.cos(frame[FrameRow.ANGLE]) + frame[FrameRow.Z] * math.sin(frame[FrameRow.ANGLE])
 
 
 @entry
@@ -87,7 +87,9 @@ def locus(frame: Numbers, axle: Numbers) -> float:
     At this point of the wheel's circle the normal has no x component. The spin then moves the wheel only along the rail's
     surface (theory.md 9.4, the contact locus under yaw).
     """
-    return axle[0] * arm(frame) / (axle[1] * math.cos(frame[Frame.ANGLE]) + axle[2] * math.sin(frame[Frame.ANGLE]))
+    return (
+        axle[0] * arm(frame) / (axle[1] * math.cos(frame[FrameRow.ANGLE]) + axle[2] * math.sin(frame[FrameRow.ANGLE]))
+    )
 
 
 @entry
@@ -95,10 +97,10 @@ def normal_loads(frames: Matrix, forces: Matrix, axle_load: float, loads: Number
     """Solve vertical and roll equilibrium (4, 5) for loads[side] [N]. A negative load is replaced by 0."""
     vertical, roll = axle_load, 0.0
     for side in range(2):
-        sine, cosine = math.sin(frames[side, Frame.ANGLE]), math.cos(frames[side, Frame.ANGLE])
+        sine, cosine = math.sin(frames[side, FrameRow.ANGLE]), math.cos(frames[side, FrameRow.ANGLE])
         vertical += forces[side, Force.FY] * sine
-        roll += forces[side, Force.FY] * (frames[side, Frame.Y] * sine - frames[side, Frame.Z] * cosine)
-    c_r, c_l = math.cos(frames[Side.RIGHT, Frame.ANGLE]), math.cos(frames[Side.LEFT, Frame.ANGLE])
+        roll += forces[side, Force.FY] * (frames[side, FrameRow.Y] * sine - frames[side, FrameRow.Z] * cosine)
+    c_r, c_l = math.cos(frames[Side.RIGHT, FrameRow.ANGLE]), math.cos(frames[Side.LEFT, FrameRow.ANGLE])
     a_r, a_l = arm(frames[Side.RIGHT]), arm(frames[Side.LEFT])
     determinant = c_r * a_l - c_l * a_r
     loads[Side.RIGHT] = (vertical * a_l - c_l * roll) / determinant
@@ -106,7 +108,7 @@ def normal_loads(frames: Matrix, forces: Matrix, axle_load: float, loads: Number
     for side in range(2):
         if loads[side] < 0.0:  # the other wheel then carries the whole axle; roll equilibrium is not satisfied
             loads[side] = 0.0
-            loads[1 - side] = max(vertical / math.cos(frames[1 - side, Frame.ANGLE]), 0.0)
+            loads[1 - side] = max(vertical / math.cos(frames[1 - side, FrameRow.ANGLE]), 0.0)
 
 
 @entry
@@ -116,7 +118,7 @@ def follow(frames: Matrix, state: Numbers) -> tuple[float, float]:
     The equations (6) are the transpose of (4, 5).
     """
     sliding_r, sliding_l = _into_surface(frames[Side.RIGHT], state), _into_surface(frames[Side.LEFT], state)
-    c_r, c_l = math.cos(frames[Side.RIGHT, Frame.ANGLE]), math.cos(frames[Side.LEFT, Frame.ANGLE])
+    c_r, c_l = math.cos(frames[Side.RIGHT, FrameRow.ANGLE]), math.cos(frames[Side.LEFT, FrameRow.ANGLE])
     a_r, a_l = arm(frames[Side.RIGHT]), arm(frames[Side.LEFT])
     determinant = c_r * a_l - c_l * a_r
     return (sliding_r * a_l - sliding_l * a_r) / determinant, (c_r * sliding_l - c_l * sliding_r) / determinant
@@ -125,19 +127,21 @@ def follow(frames: Matrix, state: Numbers) -> tuple[float, float]:
 @kernel
 def _into_surface(frame, state):
     """Return the velocity normal to the rail's surface [m/s] of a contact origin that moves only with y and yaw."""
-    return math.sin(frame[Frame.ANGLE]) * (state[State.LATERAL_VELOCITY] + state[State.YAW_RATE] * frame[Frame.X])
+    return math.sin(frame[FrameRow.ANGLE]) * (
+        state[StateRow.LATERAL_VELOCITY] + state[StateRow.YAW_RATE] * frame[FrameRow.X]
+    )
 
 
 @kernel
 def creepages(frame, state, axle, z_rate, roll_rate, speed, out):
     """Write the creepages at one contact origin, wheel minus rail: out = (ξ [-], η [-], spin [1/m]) (7)."""
-    sine, cosine = math.sin(frame[Frame.ANGLE]), math.cos(frame[Frame.ANGLE])
-    omega_x = roll_rate - state[State.SPIN] * axle[0]
-    omega_y = -state[State.SPIN] * axle[1]
-    omega_z = state[State.YAW_RATE] - state[State.SPIN] * axle[2]
-    v_x = speed + omega_y * frame[Frame.Z] - omega_z * frame[Frame.Y]
-    v_y = state[State.LATERAL_VELOCITY] + omega_z * frame[Frame.X] - omega_x * frame[Frame.Z]
-    v_z = z_rate + omega_x * frame[Frame.Y] - omega_y * frame[Frame.X]
+    sine, cosine = math.sin(frame[FrameRow.ANGLE]), math.cos(frame[FrameRow.ANGLE])
+    omega_x = roll_rate - state[StateRow.SPIN] * axle[0]
+    omega_y = -state[StateRow.SPIN] * axle[1]
+    omega_z = state[StateRow.YAW_RATE] - state[StateRow.SPIN] * axle[2]
+    v_x = speed + omega_y * frame[FrameRow.Z] - omega_z * frame[FrameRow.Y]
+    v_y = state[StateRow.LATERAL_VELOCITY] + omega_z * frame[FrameRow.X] - omega_x * frame[FrameRow.Z]
+    v_z = z_rate + omega_x * frame[FrameRow.Y] - omega_y * frame[FrameRow.X]
     out[0] = v_x / speed
     out[1] = (v_y * cosine + v_z * sine) / speed
     out[2] = (omega_z * cosine - omega_y * sine) / speed
@@ -152,8 +156,8 @@ def resultants(frames: Matrix, forces: Matrix, loads: Numbers, axle: Numbers, ou
     """
     out[:] = 0.0
     for side in range(2):
-        x, y, z = frames[side, Frame.X], frames[side, Frame.Y], frames[side, Frame.Z]
-        sine, cosine = math.sin(frames[side, Frame.ANGLE]), math.cos(frames[side, Frame.ANGLE])
+        x, y, z = frames[side, FrameRow.X], frames[side, FrameRow.Y], frames[side, FrameRow.Z]
+        sine, cosine = math.sin(frames[side, FrameRow.ANGLE]), math.cos(frames[side, FrameRow.ANGLE])
         fx, fy, mz = forces[side, Force.FX], forces[side, Force.FY], forces[side, Force.MZ]
         track_y = fy * cosine + loads[side] * sine
         track_z = fy * sine - loads[side] * cosine
@@ -184,7 +188,7 @@ def _kicked(velocity, mass, force, damping, h):
 @entry
 def kick(state: Numbers, constants: Numbers, Q: Numbers, h: float, energy: Numbers) -> None:
     """Advance the velocities by `h` [s] with constant positions and contact forces `Q`, and add the work to `energy`."""
-    lateral, yaw = state[State.LATERAL], state[State.YAW]
+    lateral, yaw = state[StateRow.LATERAL], state[StateRow.YAW]
     spring_y, spring_psi = -constants[Constant.LATERAL_STIFFNESS] * lateral, -constants[Constant.YAW_STIFFNESS] * yaw
     c_y, c_psi = constants[Constant.LATERAL_DAMPING], constants[Constant.YAW_DAMPING]
     m, inertia, spin_inertia = (
@@ -192,23 +196,23 @@ def kick(state: Numbers, constants: Numbers, Q: Numbers, h: float, energy: Numbe
         constants[Constant.YAW_INERTIA],
         constants[Constant.SPIN_INERTIA],
     )
-    before = m * state[State.LATERAL_VELOCITY] ** 2 + inertia * state[State.YAW_RATE] ** 2
-    v, mean_v = _kicked(state[State.LATERAL_VELOCITY], m, Q[0] + spring_y, c_y, h)
-    w, mean_w = _kicked(state[State.YAW_RATE], inertia, Q[1] + spring_psi, c_psi, h)
+    before = m * state[StateRow.LATERAL_VELOCITY] ** 2 + inertia * state[StateRow.YAW_RATE] ** 2
+    v, mean_v = _kicked(state[StateRow.LATERAL_VELOCITY], m, Q[0] + spring_y, c_y, h)
+    w, mean_w = _kicked(state[StateRow.YAW_RATE], inertia, Q[1] + spring_psi, c_psi, h)
     spin_gain = Q[2] * h / spin_inertia
     work = (Q[0] + spring_y) * mean_v * h + (Q[1] + spring_psi) * mean_w * h
     carried = Q[3] * constants[Constant.SPEED]
     energy[Energy.INTERFACE] -= (
-        Q[0] * mean_v + Q[1] * mean_w + Q[2] * (state[State.SPIN] + 0.5 * spin_gain) + carried
+        Q[0] * mean_v + Q[1] * mean_w + Q[2] * (state[StateRow.SPIN] + 0.5 * spin_gain) + carried
     ) * h
     energy[Energy.DRIVE] -= carried * h
     energy[Energy.DAMPER] += work - 0.5 * (m * v * v + inertia * w * w - before)
-    state[State.LATERAL_VELOCITY], state[State.YAW_RATE] = v, w
-    state[State.SPIN] += spin_gain
+    state[StateRow.LATERAL_VELOCITY], state[StateRow.YAW_RATE] = v, w
+    state[StateRow.SPIN] += spin_gain
 
 
 @entry
 def drift(state: Numbers, h: float) -> None:
     """Advance the positions by `h` [s]."""
-    state[State.LATERAL] += h * state[State.LATERAL_VELOCITY]
-    state[State.YAW] += h * state[State.YAW_RATE]
+    state[StateRow.LATERAL] += h * state[StateRow.LATERAL_VELOCITY]
+    state[StateRow.YAW] += h * state[StateRow.YAW_RATE]

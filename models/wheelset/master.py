@@ -26,9 +26,10 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from contact.errors import ContactError, require_number
-from models.wheelset.components import Component
-from models.wheelset.iteration import fixed_point
-from models.wheelset.ports import CREEPAGE, ENERGY, FRAME, LOAD, MOTION, PROBLEM, REACTION, REPORT, SIDES
+
+from .components import Component
+from .iteration import fixed_point
+from .ports import CREEPAGE, ENERGY, FRAME, LOAD, MOTION, PROBLEM, REACTION, REPORT, SIDES
 
 Array = NDArray[np.float64]
 Scheme = Literal["gauss_seidel", "jacobi", "iterated"]

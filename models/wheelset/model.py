@@ -10,9 +10,10 @@ from numpy.typing import NDArray
 from contact.errors import ContactError, require_number
 from contact.geometry.wheelset import Pair
 from contact.kernels.records import GIVEN
-from models.wheelset import dynamics, motion
-from models.wheelset.parameters import WheelsetParameters
-from models.wheelset.ports import POINTS, SIDES
+
+from . import dynamics, motion
+from .parameters import WheelsetParameters
+from .ports import POINTS, SIDES
 
 Array = NDArray[np.float64]
 
@@ -133,7 +134,7 @@ class WheelsetModel:
 
     def change(self) -> Array:
         """Return the rates of the last report in the order of `ports.CHANGE`."""
-        return np.concatenate((self._wheelset.rates[dynamics.State.LATERAL_VELOCITY :], self._wheelset.powers))
+        return np.concatenate((self._wheelset.rates[dynamics.StateRow.LATERAL_VELOCITY :], self._wheelset.powers))
 
     @property
     def mechanical_energy(self) -> float:

@@ -17,9 +17,10 @@ from contact.kernels.geometry.search import axle
 from contact.kernels.geometry.settle import first_touch, locate
 from contact.kernels.records import LARGEST_ANGLE
 from contact.kernels.rows import Sep
-from models.wheelset import dynamics
-from models.wheelset.dynamics import N_STATE, Constant, Energy, Frame, Side, State
-from models.wheelset.ports import LOAD, POINTS
+
+from . import dynamics
+from .dynamics import N_STATE, Constant, Energy, FrameRow, Side, StateRow
+from .ports import LOAD, POINTS
 
 Array = NDArray[np.float64]
 
@@ -91,15 +92,15 @@ def begin(w: Wheelset, lateral: float, yaw: float, lateral_velocity: float, yaw_
     w.forces[:] = 0.0
     w.approach[:] = approach
     w.frames[:] = 0.0
-    w.state[State.LATERAL], w.state[State.YAW] = lateral, yaw
-    w.state[State.LATERAL_VELOCITY], w.state[State.YAW_RATE] = lateral_velocity, yaw_rate
+    w.state[StateRow.LATERAL], w.state[StateRow.YAW] = lateral, yaw
+    w.state[StateRow.LATERAL_VELOCITY], w.state[StateRow.YAW_RATE] = lateral_velocity, yaw_rate
     failure = meet_rails(w)
     if failure:
         return failure
     radius = 0.0
     for side in range(2):
-        radius += 0.5 * (w.axle[1] * w.frames[side, Frame.Z] - w.axle[2] * w.frames[side, Frame.Y])
-    w.state[State.SPIN] = w.constants[Constant.SPEED] / radius
+        radius += 0.5 * (w.axle[1] * w.frames[side, FrameRow.Z] - w.axle[2] * w.frames[side, FrameRow.Y])
+    w.state[StateRow.SPIN] = w.constants[Constant.SPEED] / radius
     balance(w)
     report(w)
     return MET
@@ -152,7 +153,7 @@ def _advance(w: Wheelset, dt: float) -> int:
 @kernel
 def meet_rails(w: Wheelset) -> int:
     """Compute roll, height and contact frames at the present position."""
-    y, yaw = w.state[State.LATERAL] - w.irregularity[0], w.state[State.YAW] - w.irregularity[1]
+    y, yaw = w.state[StateRow.LATERAL] - w.irregularity[0], w.state[StateRow.YAW] - w.irregularity[1]
     failure = _settle(w, y, yaw)
     if failure:
         return failure
@@ -173,10 +174,10 @@ def _lay_frame(w: Wheelset, search: Search, side: int, y: float, z: float, roll:
         return False
     m = 1.0 if side == Side.RIGHT else -1.0  # the left side is the mirror image of the right
     patch, separation, frame, problem = search.patches[0], search.separations[0], w.frames[side], w.problems[side]
-    frame[Frame.Y] = m * patch.point_y - y
-    frame[Frame.Z] = patch.point_z - (z - w.constants[Constant.RADIUS])
-    frame[Frame.ANGLE] = m * patch.angle
-    frame[Frame.X] = dynamics.locus(frame, w.axle)
+    frame[FrameRow.Y] = m * patch.point_y - y
+    frame[FrameRow.Z] = patch.point_z - (z - w.constants[Constant.RADIUS])
+    frame[FrameRow.ANGLE] = m * patch.angle
+    frame[FrameRow.X] = dynamics.locus(frame, w.axle)
     for i in range(POINTS):
         k = i if side == Side.RIGHT else POINTS - 1 - i
         problem[i], problem[POINTS + i] = separation[Sep.G, k], separation[Sep.A, k]
@@ -204,7 +205,7 @@ def _settle(w: Wheelset, y: float, yaw: float) -> int:
     The difference of the wheels' heights decreases with roll while tan δ < 2 b0/r0 (73°). The method is a secant iteration
     within a bracket. It starts from the last roll and half base.
     """
-    roll, half_base = w.height[1], abs(w.frames[Side.RIGHT, Frame.Y])
+    roll, half_base = w.height[1], abs(w.frames[Side.RIGHT, FrameRow.Y])
     low, high = roll - _ROLL_RANGE, roll + _ROLL_RANGE
     slope = -2.0 * half_base if half_base > 0.0 else -1.5
     f_before, roll_before = 0.0, 0.0
@@ -249,7 +250,7 @@ def report(w: Wheelset) -> None:
     speed, state, relative = w.constants[Constant.SPEED], w.state, w.rates[:N_STATE]
     for i in range(N_STATE):
         relative[i] = state[i]
-    relative[State.LATERAL_VELOCITY] -= speed * w.irregularity[1]
+    relative[StateRow.LATERAL_VELOCITY] -= speed * w.irregularity[1]
     z_rate, roll_rate = dynamics.follow(w.frames, relative)
     for side in range(2):
         creepage = w.problems[side, _CREEPAGE:LOAD]
@@ -260,26 +261,31 @@ def report(w: Wheelset) -> None:
     carried = Q[3] * speed
     powers[Energy.INTERFACE] = constants[Constant.AXLE_LOAD] * z_rate - carried - Q[4] * roll_rate
     powers[Energy.INTERFACE] -= (
-        Q[0] * state[State.LATERAL_VELOCITY] + Q[1] * state[State.YAW_RATE] + Q[2] * state[State.SPIN]
+        Q[0] * state[StateRow.LATERAL_VELOCITY] + Q[1] * state[StateRow.YAW_RATE] + Q[2] * state[StateRow.SPIN]
     )
     powers[Energy.DRIVE] = -carried - Q[4] * roll_rate
-    powers[Energy.DAMPER] = constants[Constant.LATERAL_DAMPING] * state[State.LATERAL_VELOCITY] ** 2
-    powers[Energy.DAMPER] += constants[Constant.YAW_DAMPING] * state[State.YAW_RATE] ** 2
+    powers[Energy.DAMPER] = constants[Constant.LATERAL_DAMPING] * state[StateRow.LATERAL_VELOCITY] ** 2
+    powers[Energy.DAMPER] += constants[Constant.YAW_DAMPING] * state[StateRow.YAW_RATE] ** 2
 
 
 @entry
 def change(w: Wheelset) -> None:
     """Compute the time derivatives of the state under the present generalised forces (2, 3)."""
     c, Q, state, rates = w.constants, w.resultants, w.state, w.rates
-    y, yaw, v, yaw_rate = state[State.LATERAL], state[State.YAW], state[State.LATERAL_VELOCITY], state[State.YAW_RATE]
-    rates[State.LATERAL], rates[State.YAW] = v, yaw_rate
-    rates[State.LATERAL_VELOCITY] = (Q[0] - c[Constant.LATERAL_STIFFNESS] * y - c[Constant.LATERAL_DAMPING] * v) / c[
+    y, yaw, v, yaw_rate = (
+        state[StateRow.LATERAL],
+        state[StateRow.YAW],
+        state[StateRow.LATERAL_VELOCITY],
+        state[StateRow.YAW_RATE],
+    )
+    rates[StateRow.LATERAL], rates[StateRow.YAW] = v, yaw_rate
+    rates[StateRow.LATERAL_VELOCITY] = (Q[0] - c[Constant.LATERAL_STIFFNESS] * y - c[Constant.LATERAL_DAMPING] * v) / c[
         Constant.MASS
     ]
-    rates[State.YAW_RATE] = (Q[1] - c[Constant.YAW_STIFFNESS] * yaw - c[Constant.YAW_DAMPING] * yaw_rate) / c[
+    rates[StateRow.YAW_RATE] = (Q[1] - c[Constant.YAW_STIFFNESS] * yaw - c[Constant.YAW_DAMPING] * yaw_rate) / c[
         Constant.YAW_INERTIA
     ]
-    rates[State.SPIN] = Q[2] / c[Constant.SPIN_INERTIA]
+    rates[StateRow.SPIN] = Q[2] / c[Constant.SPIN_INERTIA]
 
 
 @entry
@@ -287,9 +293,11 @@ def mechanical_energy(w: Wheelset) -> float:
     """Return kinetic energy without that of V, energy of the springs, and potential energy of the weight [J] (10)."""
     c, s = w.constants, w.state
     kinetic = (
-        c[Constant.MASS] * s[State.LATERAL_VELOCITY] ** 2
-        + c[Constant.YAW_INERTIA] * s[State.YAW_RATE] ** 2
-        + c[Constant.SPIN_INERTIA] * s[State.SPIN] ** 2
+        c[Constant.MASS] * s[StateRow.LATERAL_VELOCITY] ** 2
+        + c[Constant.YAW_INERTIA] * s[StateRow.YAW_RATE] ** 2
+        + c[Constant.SPIN_INERTIA] * s[StateRow.SPIN] ** 2
     )
-    springs = c[Constant.LATERAL_STIFFNESS] * s[State.LATERAL] ** 2 + c[Constant.YAW_STIFFNESS] * s[State.YAW] ** 2
+    springs = (
+        c[Constant.LATERAL_STIFFNESS] * s[StateRow.LATERAL] ** 2 + c[Constant.YAW_STIFFNESS] * s[StateRow.YAW] ** 2
+    )
     return 0.5 * (kinetic + springs) - c[Constant.AXLE_LOAD] * w.height[0]

@@ -7,12 +7,12 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from models.wheelset import master
-from models.wheelset.components import Component, DirectWheelset, LinearContact
-from models.wheelset.master import History
-from models.wheelset.model import WheelsetModel
-from models.wheelset.parameters import WheelsetParameters
-from models.wheelset.ports import MOTION, SIDES
+from . import master
+from .components import Component, DirectWheelset, LinearContact
+from .master import History
+from .model import WheelsetModel
+from .parameters import WheelsetParameters
+from .ports import MOTION, SIDES
 
 PATH = Path(__file__).with_name("reference.csv")
 SPEED, LATERAL = 28.0, 4e-3  # [m/s], [m]

@@ -8,16 +8,16 @@ from __future__ import annotations
 
 import dataclasses
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from models.wheelset.components import Component, DirectContact, DirectWheelset
-from models.wheelset.model import WheelsetModel
-from models.wheelset.parameters import WheelsetParameters
-from models.wheelset.ports import SIDES
+from .components import Component, DirectContact, DirectWheelset
+from .model import WheelsetModel
+from .parameters import WheelsetParameters
+from .ports import SIDES
 
 _MOTION = ("lateral", "yaw", "lateral_velocity", "yaw_rate")
 _ROUNDS = 4  # exchanges of load and lateral force; they then agree to many digits
@@ -76,11 +76,19 @@ def critical_speed(
 
     The result is inf if `growth` is not positive at the upper bound, and the lower bound if it is positive there.
     """
-    low, high = bounds
 
     def unstable(speed: float) -> bool:
         return growth(dataclasses.replace(parameters, speed=speed), friction, amplitude) > 0.0
 
+    return onset(unstable, bounds, tolerance)
+
+
+def onset(unstable: Callable[[float], bool], bounds: tuple[float, float], tolerance: float) -> float:
+    """Return the speed within `bounds` above which a motion is unstable, by bisection to `tolerance`; all in m/s.
+
+    The result is inf if it is stable at the upper bound, and the lower bound if it is unstable there.
+    """
+    low, high = bounds
     if not unstable(high):
         return math.inf
     if unstable(low):

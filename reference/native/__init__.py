@@ -82,12 +82,12 @@ class Host:
     def __init__(
         self, platform: str, folder: Path, unzipped: Path, name: str = NAME, compile_by: Sequence[str] = ()
     ) -> None:
-        own, code = PLATFORMS[platform]
-        self.compiler = list(compile_by) or compiler(own)
-        library, program = SUFFIX[own]
+        system, code = PLATFORMS[platform]
+        self.compiler = list(compile_by) or compiler(system)
+        library, program = SUFFIX[system]
         self.guid = fmpy.read_model_description(str(unzipped)).guid
         self.library = unzipped / "binaries" / platform / f"{name}.{library}"
-        self.resources = resources_of(unzipped, own)
+        self.resources = resources_of(unzipped, system)
         every = models(POINTS, accumulation=True) if name in ROLES else (*models(POINTS), *vehicles(SCENARIO))
         (model,) = (model for model in every if model.table.name == name)
         its = model.component()
@@ -98,9 +98,9 @@ class Host:
         flags = ["-std=gnu11", "-O1", f"-DELEMENTS={elements}", f"-I{folder}", f"-I{HEADERS}"]
         flags += ["-DCONTACT"] if name == NAME else []
         sources = [HOST / name for name in ("common.c", *code)]
-        compile_program([*self.compiler, *flags], own, sources, self.program)
+        compile_program([*self.compiler, *flags], system, sources, self.program)
         self.fmi2 = code is _FMI2
-        self.prefix = [] if own == "linux64" else ["wine"]
+        self.prefix = [] if system == "linux64" else ["wine"]
         self.environment = os.environ | {"WINEDEBUG": "-all"}
 
     def __call__(self, command: str, *arguments: object, stdin: str | None = None, before: tuple[str, ...] = ()) -> str:

@@ -10,7 +10,7 @@ from contact import ContactError
 from contact.geometry import profile
 from contact.geometry.surfaces import Flat, Polygon, RailSurface, SurfacePair, Wave, WheelSurface
 from contact.geometry.surfaces.frame import Frame, PlacedRail, heights
-from contact.geometry.surfaces.sheet import Sheet
+from contact.geometry.surfaces.sheet import SplineSheet
 from contact.geometry.surfaces.spline import approximated, slopes
 from contact.geometry.wheelset import Irregularity, Pair, Pose, Velocity
 
@@ -66,7 +66,7 @@ def test_control_points_at_equal_steps_are_weighted_1_4_1():
 def test_a_cubic_surface_along_u_is_reproduced_and_derivatives_agree_with_differences():
     u, v = np.array([0.0, 0.2, 0.5, 0.9, 1.0]), np.arange(6.0)
     z = (1.0 + u - 2.0 * u**3)[:, None] * np.ones(6)
-    sheet = Sheet(u, np.stack((np.broadcast_to(v, z.shape), z)), np.ones(z.shape, bool))
+    sheet = SplineSheet(u, np.stack((np.broadcast_to(v, z.shape), z)), np.ones(z.shape, bool))
     at, across = np.random.default_rng(4).uniform(0.05, 0.95, 50), np.random.default_rng(5).uniform(0.1, 4.9, 50)
     found = sheet.at(at, across)
     assert found.f[1] == pytest.approx(1.0 + at - 2.0 * at**3, abs=1e-13)

@@ -17,14 +17,14 @@ def pose():
     axle = np.array([-0.006, 0.99998, 0.003])
     axle /= np.linalg.norm(axle)
     for frame in frames:
-        frame[d.Frame.X] = d.locus(frame, axle)
+        frame[d.FrameRow.X] = d.locus(frame, axle)
     forces = np.array([[-4e3, 9e3, 25.0], [5e3, -3e3, -12.0]])
     return frames, state, axle, forces
 
 
 def axes(frame):
     """Return the lateral and normal unit vectors of a contact frame in track axes (normal from wheel into rail)."""
-    c, s = np.cos(frame[d.Frame.ANGLE]), np.sin(frame[d.Frame.ANGLE])
+    c, s = np.cos(frame[d.FrameRow.ANGLE]), np.sin(frame[d.FrameRow.ANGLE])
     return np.array([0.0, c, s]), np.array([0.0, -s, c])
 
 
@@ -58,8 +58,8 @@ def test_a_lifted_wheel_carries_nothing_and_the_other_everything(pose):
 
 
 def rigid_velocity(frame, state, axle, z_rate, roll_rate):
-    turning = np.array([roll_rate, 0.0, state[d.State.YAW_RATE]]) - state[d.State.SPIN] * axle
-    return np.array([V, state[d.State.LATERAL_VELOCITY], z_rate]) + np.cross(turning, frame[:3]), turning
+    turning = np.array([roll_rate, 0.0, state[d.StateRow.YAW_RATE]]) - state[d.StateRow.SPIN] * axle
+    return np.array([V, state[d.StateRow.LATERAL_VELOCITY], z_rate]) + np.cross(turning, frame[:3]), turning
 
 
 def test_both_contact_points_stay_on_the_rails(pose):
@@ -82,7 +82,10 @@ def test_power_of_the_generalised_forces_is_the_power_at_the_contacts(pose):
     Q = np.empty(4)
     d.resultants(frames, forces, loads, axle, Q)
     generalised = (
-        Q[0] * state[d.State.LATERAL_VELOCITY] + Q[1] * state[d.State.YAW_RATE] + Q[2] * state[d.State.SPIN] + Q[3] * V
+        Q[0] * state[d.StateRow.LATERAL_VELOCITY]
+        + Q[1] * state[d.StateRow.YAW_RATE]
+        + Q[2] * state[d.StateRow.SPIN]
+        + Q[3] * V
     )
     assert generalised - W * z_rate == pytest.approx(at_contacts, rel=1e-11)
 
@@ -127,7 +130,9 @@ def test_integrator_converges_with_second_order_to_the_exact_motion():
     exact = solve_ivp(rhs, (0.0, T), start, rtol=1e-11, atol=1e-14).y[:, -1]
     errors = [abs(advance(start.copy(), c, Q, T / n, n)[0] - exact)[:4].max() for n in (50, 100, 200)]
     assert np.log2(errors[:-1] / np.array(errors[1:])) == pytest.approx(2.0, abs=0.05)
-    assert advance(start.copy(), c, Q, T / 50, 50)[0][d.State.SPIN] == pytest.approx(exact[d.State.SPIN], rel=1e-12)
+    assert advance(start.copy(), c, Q, T / 50, 50)[0][d.StateRow.SPIN] == pytest.approx(
+        exact[d.StateRow.SPIN], rel=1e-12
+    )
 
 
 def test_energy_balance_is_complete():
@@ -161,4 +166,4 @@ def test_kick_is_exact_for_any_damping(damping):
     exact = solve_ivp(
         lambda _, v: (900.0 - damping * v) / 1250.0, (0.0, h), [0.2], rtol=1e-12, atol=1e-15, method="LSODA"
     )
-    assert state[d.State.LATERAL_VELOCITY] == pytest.approx(exact.y[0, -1], rel=1e-9)
+    assert state[d.StateRow.LATERAL_VELOCITY] == pytest.approx(exact.y[0, -1], rel=1e-9)

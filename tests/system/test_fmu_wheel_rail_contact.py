@@ -19,7 +19,6 @@ import contact
 from contact.theory import kalker
 from fmu_src.catalogue import models
 from fmu_src.python.packaging import build  # imported here, since an FMU that is loaded first brings its own pythonfmu
-from models.wheelset.ports import PROBLEM, REACTION
 
 ROOT = Path(__file__).parents[2]
 
@@ -153,66 +152,6 @@ def test_creep_stiffness_is_the_slope_of_the_forces(fmu):
     np.testing.assert_allclose(slope, np.subtract(*forces) / (2.0 * h), rtol=1e-3, atol=1e-4 * abs(slope[0]))
 
 
-def test_lift_off_is_a_valid_result(fmu):
-    fmu.update({"load.normal_force": 0.0})
-    fmu.step()
-    outputs = fmu.all("output")
-    assert outputs["status_real"] == contact.Status.NO_CONTACT
-    assert not any(value for name, value in outputs.items() if name not in ("status_real", "approach"))
-    assert not fmu.log
-
-
-def test_connectors_at_zero_give_no_contact_without_load_and_a_flat_contact_with_load(fmu):
-    """A master without knowledge of start values gives zeros. Curvature 0 is then not an error."""
-    good = {name: fmu[name] for name in PROBLEM}
-    fmu.step()
-    before = fmu["force.x"]
-    fmu.update(dict.fromkeys(PROBLEM, 0.0))
-    fmu.step(1e-3)
-    assert fmu["status"] == contact.Status.NO_CONTACT
-    assert not any(fmu[name] for name in REACTION)
-    fmu.update({"load.normal_force": 1e3})
-    fmu.step(2e-3)
-    assert fmu["status"] == contact.Status.OUT_OF_RANGE
-    fmu.update(good)
-    fmu.step(3e-3)
-    assert fmu["force.x"] == before
-
-
-def test_a_patch_beyond_the_separation_is_reported_once(fmu):
-    narrow = {f"geometry.g[{i}]": 1e-9 * (i - 21) ** 2 for i in range(1, 42)}
-    fmu.update(narrow)
-    for k in range(3):
-        fmu.step(k * 1e-3)
-    assert fmu["status"] == contact.Status.OUT_OF_RANGE
-    assert all(math.isfinite(value) for value in fmu.all("output").values())
-    assert [message.split(":")[0] for _, message in fmu.log] == ["status OUT_OF_RANGE"]
-
-
-@pytest.mark.parametrize(
-    ("name", "value", "fault"),
-    [
-        ("geometry.g[7]", math.nan, "not finite"),
-        ("geometry.A[1]", -1.0, "outside the allowed range [0, inf["),
-        ("creepage.spin", math.inf, "outside the allowed range [-1e+06, 1e+06]"),
-        ("load.normal_force", -1001.0, "outside the allowed range [-1000, inf["),
-        ("friction.coefficient", math.nan, "outside the allowed range [0, 1e+06]"),
-        ("speed", -1.0, "outside the allowed range [0, inf["),
-    ],
-)
-def test_a_bad_input_is_discarded_by_name_and_the_instance_recovers(fmu, name, value, fault):
-    fmu.step()
-    before, good = fmu.all("output"), fmu[name]
-    fmu.update({name: value})
-    for _ in range(7):  # the fifth exception in a pythonfmu callback would crash the host
-        assert discarded(fmu, 1e-3) == f"{name} = {value:g} is {fault}"
-    assert fmu.all("output") == before
-    fmu.update({name: good})
-    fmu.step(1e-3)
-    assert fmu["force.x"] == before["force.x"]
-    assert fmu["total.energy"] == pytest.approx(2.0 * before["total.energy"], rel=1e-12)
-
-
 @pytest.mark.parametrize(
     ("name", "value", "allowed"),
     [
@@ -245,40 +184,6 @@ def test_a_fixed_parameter_keeps_its_value_after_initialisation(fmu):
     assert "geometry.dy cannot be set as Real after initialisation" in fmu.log[-1][1]
 
 
-def trajectory(fmu, start: int) -> list[dict[str, float]]:
-    """Return the outputs of five steps with changing inputs from step `start` on."""
-    rows = []
-    for k in range(start, start + 5):
-        fmu.update({"creepage.lateral": 1e-3 * math.sin(k), "load.normal_force": 8e4 + 1e4 * math.cos(k)})
-        fmu.step(k * 1e-3)
-        rows.append(fmu.all("output"))
-    return rows
-
-
-def test_a_restored_state_continues_bit_by_bit(fmu):
-    trajectory(fmu, 0)
-    state = fmu.fmu.getFMUstate()
-    values = fmu.all("input", "output", "parameter")
-    expected = trajectory(fmu, 5)
-    fmu.fmu.setFMUstate(state)
-    assert fmu.all("input", "output", "parameter") == values
-    assert trajectory(fmu, 5) == expected
-    fmu.fmu.freeFMUstate(state)
-
-
-def test_a_serialised_state_continues_in_another_instance_bit_by_bit(fmu, open_fmu):
-    trajectory(fmu, 0)
-    state = fmu.fmu.getFMUstate()
-    content = fmu.fmu.serializeFMUstate(state)
-    fmu.fmu.freeFMUstate(state)
-    expected = trajectory(fmu, 5)
-    other = open_fmu(NAME).initialize()
-    copy = other.fmu.deSerializeFMUstate(content)
-    other.fmu.setFMUstate(copy)
-    other.fmu.freeFMUstate(copy)
-    assert trajectory(other, 5) == expected
-
-
 def test_a_start_value_out_of_range_is_not_answered_with_ok(open_fmu):
     """pythonfmu cannot return an error from exitInitializationMode, so the status reports it. The instance recovers."""
     instance = open_fmu(NAME)
@@ -291,15 +196,6 @@ def test_a_start_value_out_of_range_is_not_answered_with_ok(open_fmu):
     instance.update({"load.normal_force": 8e4})
     instance.step()
     assert instance["status"] == contact.Status.OK
-
-
-def test_reset_restores_every_start(fmu, open_fmu):
-    trajectory(fmu, 0)
-    fmu.fmu.reset()
-    assert fmu.all("input", "output", "parameter") == open_fmu(NAME).all("input", "output", "parameter")
-    fmu.initialize()
-    fmu.step()
-    assert fmu["force.n"] == pytest.approx(80e3)
 
 
 def test_instances_do_not_share_anything(open_fmu):

@@ -4,8 +4,8 @@ import math
 
 import numpy as np
 import pytest
-from fmpy.fmi1 import FMICallException
 from fmpy.validation import validate_fmu
+from fmu_instance import discarded
 from wheelset_case import reactions, reported, trajectory
 
 from models.wheelset.model import WheelsetModel
@@ -13,7 +13,6 @@ from models.wheelset.parameters import WheelsetParameters
 from models.wheelset.ports import CONTACT_PORTS, PROBLEM, REACTION, SIDES, WHEELSET_PORTS
 
 NAME = "Wheelset"
-DISCARD = 2
 
 
 @pytest.fixture
@@ -102,71 +101,12 @@ def test_the_irregularity_reaches_the_model(fmu):
     assert fmu.all("output") == reported(model)
 
 
-def discarded(fmu) -> str:
-    fmu.log.clear()
-    with pytest.raises(FMICallException) as caught:
-        fmu.step()
-    assert caught.value.status == DISCARD
-    return fmu.log[0][1]
-
-
-@pytest.mark.parametrize("name", ["right.force.y", "left.approach", "irregularity.slope"])
-def test_a_bad_input_is_discarded_by_name_and_the_instance_recovers(fmu, name):
-    before = fmu.all("output")
-    good = fmu[name]
-    fmu.update({name: math.nan})
-    assert discarded(fmu) == f"{name} = nan is not finite"
-    assert fmu.all("output") == before
-    fmu.update({name: good})
-    fmu.step()
-
-
-def test_a_derailment_is_discarded_and_leaves_the_wheelset_where_it_was(fmu):
-    trajectory(fmu, 0)
-    before = fmu.all("output")
-    fmu.update({"right.force.y": 1e9})
-    assert "wheel" in discarded(fmu) or "rails" in discarded(fmu)
-    assert fmu.all("output") == before
-    assert trajectory(fmu, 3)[-1]["lateral"] == pytest.approx(before["lateral"], abs=1e-4)
-
-
 def test_a_start_off_the_rails_is_discarded_with_its_reason(open_fmu):
     fmu = open_fmu(NAME)
     fmu.update({"initial.lateral": 0.2})
     fmu.initialize()
     assert "0.2" in discarded(fmu)
     assert all(math.isfinite(v) for v in fmu.all("output").values())
-
-
-def test_a_restored_state_continues_bit_by_bit(fmu):
-    trajectory(fmu, 0)
-    state = fmu.fmu.getFMUstate()
-    expected = trajectory(fmu, 3)
-    fmu.fmu.setFMUstate(state)
-    assert trajectory(fmu, 3) == expected
-    fmu.fmu.freeFMUstate(state)
-
-
-def test_a_serialised_state_continues_in_another_instance_bit_by_bit(open_fmu):
-    fmu = open_fmu(NAME)
-    fmu.update({"initial.lateral": 1e-3})
-    trajectory(fmu.initialize(), 0)
-    state = fmu.fmu.getFMUstate()
-    content = fmu.fmu.serializeFMUstate(state)
-    fmu.fmu.freeFMUstate(state)
-    expected = trajectory(fmu, 3)
-    other = open_fmu(NAME).initialize()
-    copy = other.fmu.deSerializeFMUstate(content)
-    other.fmu.setFMUstate(copy)
-    other.fmu.freeFMUstate(copy)
-    assert trajectory(other, 3) == expected
-
-
-def test_reset_returns_to_the_start(fmu):
-    first = fmu.all("output")
-    trajectory(fmu, 0)
-    fmu.fmu.reset()
-    assert fmu.initialize().all("output") == first
 
 
 def test_two_fmus_that_share_code_run_in_one_process(fmu, open_fmu):

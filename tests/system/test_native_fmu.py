@@ -10,11 +10,10 @@ import numpy as np
 import pytest
 from contact_case import posed
 from fmpy.fmi1 import FMICallException
-from fmu_instance import DISCARD, ERROR, WARNING, discarded, refused
+from fmu_instance import DISCARD, ERROR, WARNING, refused
 from thesis_case import THESIS
 
 import contact
-from models.wheelset.ports import PROBLEM, REACTION
 
 
 @pytest.fixture
@@ -41,30 +40,6 @@ def test_simulates_with_fmpy(native, kind):
     s = contact.solve(contact.Separation(y, y**2, 0.5 / 0.46), contact.Creepage(2e-4 * (10 - delay)), load=80e3)
     assert result["force.x"][-1] == pytest.approx(s.Fx, rel=1e-4)  # interacting strips start from the last step
     assert 0.0 < result["total.energy"][-1] < 0.01 * 20.0 * s.power_per_metre
-
-
-@pytest.mark.parametrize(
-    ("name", "value", "fault"),
-    [
-        ("geometry.g[7]", math.nan, "not finite"),
-        ("geometry.A[41]", -1.0, "outside the allowed range [0, inf["),
-        ("creepage.spin", math.inf, "outside the allowed range [-1e+06, 1e+06]"),
-        ("load.normal_force", -1001.0, "outside the allowed range [-1000, inf["),
-        ("friction.coefficient", math.nan, "outside the allowed range [0, 1e+06]"),
-        ("speed", -1.0, "outside the allowed range [0, inf["),
-    ],
-)
-def test_a_bad_input_is_discarded_by_name_and_the_instance_recovers(fmu, name, value, fault):
-    fmu.step()
-    before, good = fmu.all("output"), fmu[name]
-    fmu.update({name: value})
-    for _ in range(3):
-        assert discarded(fmu, 1e-3) == f"{name} = {value:g} is {fault}"
-    assert fmu.all("output") == before
-    fmu.update({name: good})
-    fmu.step(1e-3)
-    assert fmu["force.x"] == before["force.x"]
-    assert fmu["total.energy"] == pytest.approx(2.0 * before["total.energy"], rel=1e-12)
 
 
 def test_a_bad_parameter_is_discarded_by_name_before_the_first_step(open_native):
@@ -131,62 +106,11 @@ def test_extreme_values_give_finite_outputs_or_none(open_native):
     assert done > 20
 
 
-def test_lift_off_is_a_valid_result(fmu):
-    fmu.update({"load.normal_force": 0.0})
-    fmu.step()
-    outputs = fmu.all("output")
-    assert outputs["status_real"] == contact.Status.NO_CONTACT
-    assert not any(value for name, value in outputs.items() if name not in ("status_real", "approach"))
-
-
-def test_connectors_at_zero_give_no_contact_without_load_and_a_flat_contact_with_load(fmu):
-    """A master without knowledge of start values gives zeros. Curvature 0 is then not an error."""
-    good = {name: fmu[name] for name in PROBLEM}
-    fmu.step()
-    before = fmu["force.x"]
-    fmu.update(dict.fromkeys(PROBLEM, 0.0))
-    fmu.step(1e-3)
-    assert fmu["status"] == contact.Status.NO_CONTACT
-    assert not any(fmu[name] for name in REACTION)
-    fmu.update({"load.normal_force": 1e3})
-    fmu.step(2e-3)
-    assert fmu["status"] == contact.Status.OUT_OF_RANGE
-    fmu.update(good)
-    fmu.step(3e-3)
-    assert fmu["force.x"] == before
-
-
 def test_a_patch_beyond_the_separation_is_reported_once_as_a_warning(fmu):
     fmu.update({f"geometry.g[{i}]": 1e-9 * (i - 21) ** 2 for i in range(1, 42)})
     for k in range(3):
         fmu.step(k * 1e-3)
     assert [(status, message.split(":")[0]) for status, message in fmu.log] == [(WARNING, "status OUT_OF_RANGE")]
-
-
-def trajectory(fmu, start: int) -> list[dict[str, float]]:
-    rows = []
-    for k in range(start, start + 5):
-        fmu.update({"creepage.lateral": 1e-3 * math.sin(k), "load.normal_force": 8e4 + 1e4 * math.cos(k)})
-        fmu.step(k * 1e-3)
-        rows.append(fmu.all("output"))
-    return rows
-
-
-def test_a_restored_or_serialised_state_continues_bit_by_bit(fmu, open_native):
-    trajectory(fmu, 0)
-    state = fmu.fmu.getFMUstate()
-    content = fmu.fmu.serializeFMUstate(state)
-    values = fmu.all("input", "output", "parameter")
-    wanted = trajectory(fmu, 5)
-    fmu.fmu.setFMUstate(state)
-    assert fmu.all("input", "output", "parameter") == values
-    assert trajectory(fmu, 5) == wanted
-    fmu.fmu.freeFMUstate(state)
-    other = open_native()
-    copy = other.fmu.deSerializeFMUstate(content)
-    other.fmu.setFMUstate(copy)
-    other.fmu.freeFMUstate(copy)
-    assert trajectory(other, 5) == wanted
 
 
 def test_damaged_bytes_are_no_state(fmu):
@@ -202,14 +126,6 @@ def test_damaged_bytes_are_no_state(fmu):
         refused(lambda size=size: fmu.fmu.deSerializeFMUstate(bytes(content[:size])), ERROR)
         refused(lambda size=size: fmu.fmu.deSerializeFMUstate(rng.bytes(size)), ERROR)
     fmu.step()
-
-
-def test_reset_restores_every_start(fmu, open_native):
-    wanted = open_native().initialize().all("input", "output", "parameter")
-    trajectory(fmu, 0)
-    fmu.fmu.reset()
-    fmu.initialize()
-    assert fmu.all("input", "output", "parameter") == wanted
 
 
 def test_model_exchange_has_no_delay_and_counts_energy_by_the_trapezoidal_rule(open_native):

@@ -9,9 +9,8 @@ from pathlib import Path
 import fmpy
 import numpy as np
 import pytest
-from fmpy.fmi1 import FMICallException
 from fmpy.validation import validate_fmu
-from fmu_instance import Instance
+from fmu_instance import DISCARD, ERROR, Instance, refused
 from script_host import Script
 from thesis_case import THESIS
 from wheelset_case import NUMBERS, STATES, commands, inputs, reactions, reported, trajectory
@@ -33,7 +32,6 @@ from models.wheelset.ports import (
 )
 
 NAME = "Wheelset"
-DISCARD, ERROR = 2, 3
 DERIVATIVES = [row.name for row in table().derivatives]
 IN_MOTION = {"lateral": 4e-3, "yaw": 2e-3, "lateral_velocity": 0.03, "yaw_rate": -0.05, "spin": 60.9}
 
@@ -78,12 +76,6 @@ def continuous(fmu):
 
 def references(fmu, *names: str) -> list[int]:
     return [fmu.variables[name].valueReference for name in names]
-
-
-def refused(call, status: int) -> None:
-    with pytest.raises(FMICallException) as caught:
-        call()
-    assert caught.value.status == status
 
 
 # ---------------------------------------------------------------- the file
@@ -171,27 +163,6 @@ def test_native_and_python_fmus_give_the_same_coupled_run(native, native_wheelse
         assert ours[column] == pytest.approx(theirs[column], abs=1e-12 * scale), column
 
 
-@pytest.mark.parametrize("name", ["right.force.y", "left.approach", "irregularity.slope"])
-def test_a_bad_input_is_discarded_by_name_and_the_instance_recovers(fmu, name):
-    before, good = fmu.all("output"), fmu[name]
-    fmu.update({name: math.nan})
-    refused(fmu.step, DISCARD)
-    assert fmu.log[-1] == (DISCARD, f"{name} = nan is not finite")
-    assert fmu.all("output") == before
-    fmu.update({name: good})
-    fmu.step()
-
-
-def test_a_derailment_is_discarded_and_leaves_the_wheelset_where_it_was(fmu):
-    trajectory(fmu, 0)
-    before = fmu.all("output")
-    fmu.update({"right.force.y": 1e9})
-    refused(fmu.step, DISCARD)
-    assert "wheel" in fmu.log[-1][1] or "rails" in fmu.log[-1][1]
-    assert fmu.all("output") == before
-    assert trajectory(fmu, 3)[-1]["lateral"] == pytest.approx(before["lateral"], abs=1e-4)
-
-
 def test_a_start_off_the_rails_is_discarded_with_its_reason(open_wheelset):
     fmu = open_wheelset(initial__lateral=0.2)
     refused(fmu.initialize, DISCARD)
@@ -199,29 +170,6 @@ def test_a_start_off_the_rails_is_discarded_with_its_reason(open_wheelset):
     fmu.update({"initial.lateral": 0.0})
     fmu.fmu.exitInitializationMode()
     assert fmu["lateral"] == 0.0
-
-
-def test_a_restored_or_serialised_state_continues_bit_by_bit(open_wheelset):
-    fmu = open_wheelset(initial__lateral=1e-3).initialize()
-    trajectory(fmu, 0)
-    state = fmu.fmu.getFMUstate()
-    content = fmu.fmu.serializeFMUstate(state)
-    wanted = trajectory(fmu, 3)
-    fmu.fmu.setFMUstate(state)
-    assert trajectory(fmu, 3) == wanted
-    fmu.fmu.freeFMUstate(state)
-    other = open_wheelset()
-    copy = other.fmu.deSerializeFMUstate(content)
-    other.fmu.setFMUstate(copy)
-    other.fmu.freeFMUstate(copy)
-    assert trajectory(other, 3) == wanted
-
-
-def test_reset_returns_to_the_start(fmu):
-    first = fmu.all("output")
-    trajectory(fmu, 0)
-    fmu.fmu.reset()
-    assert fmu.initialize().all("output") == first
 
 
 # ---------------------------------------------------------------- model exchange

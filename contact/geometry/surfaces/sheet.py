@@ -26,7 +26,7 @@ class Points(NamedTuple):
     across: Array  # d/dv
 
 
-class Sheet:
+class SplineSheet:
     """Bicubic surface y(u, v), z(u, v).
 
     Parameters

@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from contact.errors import ContactError
 from contact.geometry.shape import Profile
-from contact.geometry.surfaces.sheet import Sheet
+from contact.geometry.surfaces.sheet import SplineSheet
 from contact.geometry.surfaces.spline import approximated, slopes
 
 Array = NDArray[np.float64]
@@ -22,7 +22,7 @@ MOST_SLICES, MOST_PATHS = 2000, 5000
 _KINK = np.radians(30.0)  # a slice has a corner where two of its chords differ by more than this angle
 
 
-class Curve:
+class SliceCurve:
     """One slice as a parametric cubic over its chord length `s` [m], from the first point."""
 
     def __init__(self, points: Slice, name: str) -> None:
@@ -45,7 +45,7 @@ class Curve:
         self._start, self._end = np.empty_like(steps), np.empty_like(steps)
 
     def connect(self, corners: Array) -> None:
-        """Lay the cubics. The tangent may jump at the points nearest to `corners` [m], and where chords turn sharply.
+        """Compute the cubics. The tangent may jump at the points nearest to `corners` [m], and where chords turn sharply.
 
         A profile keeps its own tangents.
         """
@@ -103,11 +103,11 @@ def connect(
     interpolating: bool,
     spacing: float,
     period: float | None = None,
-) -> Sheet:
+) -> SplineSheet:
     """Return the surface through the slices. Parameters as for `contact.geometry.surfaces.RailSurface`."""
     if len(slices) != u.size:
         raise ContactError(f"there are {len(slices)} slices for {u.size} positions")
-    curves = [Curve(points, f"slices[{i}]") for i, points in enumerate(slices)]
+    curves = [SliceCurve(points, f"slices[{i}]") for i, points in enumerate(slices)]
     marks = _features(features, curves)
     for corner in corners:
         if not 0 < corner < marks.shape[1] - 1:
@@ -135,10 +135,10 @@ def connect(
             if rows.size == rows[-1] - rows[0] + 1:
                 closed = period if rows.size == u.size else None
                 nodes[:, rows, j] = approximated(u[rows], nodes[:, rows, j].T, closed).T
-    return Sheet(u, nodes, active, tuple(int(firsts[c]) for c in corners), period)
+    return SplineSheet(u, nodes, active, tuple(int(firsts[c]) for c in corners), period)
 
 
-def _features(features: ArrayLike | None, curves: Sequence[Curve]) -> Array:
+def _features(features: ArrayLike | None, curves: Sequence[SliceCurve]) -> Array:
     """Return the positions of the features [m], shape (slices, features); NaN where a feature is absent.
 
     The features of a slice increase, are a run without holes, and end with the slice.

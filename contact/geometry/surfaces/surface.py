@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike, NDArray
 from contact.errors import ContactError, require_number
 from contact.geometry.shape import Profile
 from contact.geometry.surfaces.deviation import Deviation
-from contact.geometry.surfaces.sheet import Points, Sheet
+from contact.geometry.surfaces.sheet import Points, SplineSheet
 from contact.geometry.surfaces.slices import MOST_SLICES, SPACING, Slice, connect, positions
 
 Array = NDArray[np.float64]
@@ -27,7 +27,7 @@ _WIDEST = (
 class _Surface:
     """Slices and deviations. Points lie at (u, v): position of the slice, and index of a longitudinal path."""
 
-    def __init__(self, sheet: Sheet, deviations: Sequence[Deviation], name: str) -> None:
+    def __init__(self, sheet: SplineSheet, deviations: Sequence[Deviation], name: str) -> None:
         for deviation in deviations:
             if not callable(getattr(deviation, "at", None)):
                 raise ContactError(f"deviation = {deviation!r} has no method at(u)")

@@ -121,7 +121,7 @@ bool load_resources(Instance *instance, const char *folder)
         size = append(instance, file, resource, size);
         fclose(file);
         if (size == 0) {
-            report(instance, LOG_ERROR, "resource %s is not valid: it is damaged, of another kind or not made by fmu_src.resources",
+            report(instance, LOG_ERROR, "resource %s is not valid: it is damaged, of another kind or not made by contact_fmu.resources",
                    TEXT(resource->name));
             return false;
         }

@@ -1,1 +1,1 @@
-"""Compiled code of a vehicle. It has its own folder because kernels are cached by the content of their folder."""
+"""Compiled code of a vehicle."""

@@ -20,7 +20,8 @@ from contact.kernels.block import part
 from contact.kernels.records import CASE, CONTACT, LEDGER, MAX_PATCHES, MOTION, TOTAL
 from contact.kernels.rows import N_LINE_ROWS, N_PROFILE_ROWS
 from contact.pair import WheelRailPair
-from models.vehicle.kernels.between import Held
+
+from .between import Held
 
 Array = NDArray[np.float64]
 IntegerRows = Annotated[Any, Shape(np.int64, 2)]
@@ -75,25 +76,34 @@ def gather(pairs: Sequence[WheelRailPair], last: Held) -> Benches:
     n, first = len(pairs), pairs[0].bench
     sizes = np.zeros((n, len(Size)), np.int64)
     pool: list[Array] = []
-    for own, pair in zip(sizes, pairs, strict=True):
+    for size, pair in zip(sizes, pairs, strict=True):
         bench, end = pair.bench, sum(array.size for array in pool)
         ledger = bench.ledger
-        own[Size.WHEEL], own[Size.RAIL] = bench.search.wheel.shape[1], bench.search.rail.shape[1]
-        own[Size.BINS] = ledger.bins.shape[2]
-        own[Size.ROWS_WHEEL], own[Size.ROWS_RAIL] = ledger.wheel.shape[1], ledger.rail.shape[1]
+        size[Size.WHEEL], size[Size.RAIL] = bench.search.wheel.shape[1], bench.search.rail.shape[1]
+        size[Size.BINS] = ledger.bins.shape[2]
+        size[Size.ROWS_WHEEL], size[Size.ROWS_RAIL] = ledger.wheel.shape[1], ledger.rail.shape[1]
         parts = (
             bench.search.wheel, bench.search.rail, ledger.bins, ledger.wheel, ledger.wheel_arc, ledger.rail, ledger.rail_arc,
         )  # fmt: skip
         for at, array in zip(range(Size.WHEEL_AT, Size.ARC_RAIL_AT + 1), parts, strict=True):
-            own[at] = end
+            size[at] = end
             pool.append(array.ravel())
             end += array.size
     most = int(sizes[:, : Size.RAIL + 1].max())
     made = Benches(
-        first, np.zeros(n, CASE), np.zeros(n, MOTION), np.zeros(n, LEDGER), np.zeros((n, MAX_PATCHES), CONTACT),
-        np.zeros(n, TOTAL), np.zeros((n, first.memory.size)), np.concatenate(pool),
-        np.zeros(2 * (N_LINE_ROWS + N_PROFILE_ROWS) * most), sizes, first.ledger.bins.shape[1], last,
-    )  # fmt: skip
+        shared=first,
+        cases=np.zeros(n, CASE),
+        motions=np.zeros(n, MOTION),
+        settings=np.zeros(n, LEDGER),
+        contacts=np.zeros((n, MAX_PATCHES), CONTACT),
+        totals=np.zeros(n, TOTAL),
+        memories=np.zeros((n, first.memory.size)),
+        pool=np.concatenate(pool),
+        scratch=np.zeros(2 * (N_LINE_ROWS + N_PROFILE_ROWS) * most),
+        sizes=sizes,
+        rows=first.ledger.bins.shape[1],
+        held=last,
+    )
     for k, pair in enumerate(pairs):
         made.cases[k], made.motions[k] = pair.bench.case[0], pair.bench.search.motion[0]
         made.settings[k] = pair.bench.ledger.settings[0]
@@ -126,50 +136,50 @@ def bench_of(benches, w):
     plane_at = placed_at + N_PROFILE_ROWS * n_rail
     rail_plane_at = plane_at + N_LINE_ROWS * n_wheel
     search = Search(
-        _cut(pool, size[Size.WHEEL_AT], N_PROFILE_ROWS, n_wheel),
-        _cut(pool, size[Size.RAIL_AT], N_PROFILE_ROWS, n_rail),
-        benches.motions[w : w + 1],
-        s.grid,
-        s.patches,
-        s.separations,
-        _cut(benches.scratch, 0, N_LINE_ROWS, n_wheel),
-        _cut(benches.scratch, placed_at, N_PROFILE_ROWS, n_rail),
-        s.lobes,
-        _cut(benches.scratch, plane_at, N_LINE_ROWS, n_wheel),
-        _cut(benches.scratch, rail_plane_at, N_PROFILE_ROWS, n_rail),
-        s.case,
-        s.across,
-        s.work,
-        s.strips,
-        s.result,
+        wheel=_cut(pool, size[Size.WHEEL_AT], N_PROFILE_ROWS, n_wheel),
+        rail=_cut(pool, size[Size.RAIL_AT], N_PROFILE_ROWS, n_rail),
+        motion=benches.motions[w : w + 1],
+        grid=s.grid,
+        patches=s.patches,
+        separations=s.separations,
+        line=_cut(benches.scratch, 0, N_LINE_ROWS, n_wheel),
+        placed=_cut(benches.scratch, placed_at, N_PROFILE_ROWS, n_rail),
+        lobes=s.lobes,
+        wheel_plane=_cut(benches.scratch, plane_at, N_LINE_ROWS, n_wheel),
+        rail_plane=_cut(benches.scratch, rail_plane_at, N_PROFILE_ROWS, n_rail),
+        case=s.case,
+        across=s.across,
+        work=s.work,
+        strips=s.strips,
+        result=s.result,
     )
     of_wheel, of_rail = size[Size.ROWS_WHEEL], size[Size.ROWS_RAIL]
     ledger = Ledger(
-        _cut(pool, size[Size.ROWS_WHEEL_AT], 2, of_wheel),
-        pool[size[Size.ARC_WHEEL_AT] : size[Size.ARC_WHEEL_AT] + of_wheel],
-        _cut(pool, size[Size.ROWS_RAIL_AT], 2, of_rail),
-        pool[size[Size.ARC_RAIL_AT] : size[Size.ARC_RAIL_AT] + of_rail],
-        benches.settings[w : w + 1],
-        t.ledger.rates,
-        t.ledger.edges,
-        _bins(benches, w),
+        wheel=_cut(pool, size[Size.ROWS_WHEEL_AT], 2, of_wheel),
+        wheel_arc=pool[size[Size.ARC_WHEEL_AT] : size[Size.ARC_WHEEL_AT] + of_wheel],
+        rail=_cut(pool, size[Size.ROWS_RAIL_AT], 2, of_rail),
+        rail_arc=pool[size[Size.ARC_RAIL_AT] : size[Size.ARC_RAIL_AT] + of_rail],
+        settings=benches.settings[w : w + 1],
+        rates=t.ledger.rates,
+        edges=t.ledger.edges,
+        bins=_bins(benches, w),
     )
     return Bench(
-        search,
-        t.own,
-        benches.cases[w : w + 1],
-        t.patch_case,
-        t.result,
-        benches.memories[w],
-        t.damage_parameters,
-        t.damage_fields,
-        t.damage,
-        benches.contacts[w],
-        benches.totals[w : w + 1],
-        ledger,
-        t.rail,
-        t.roots,
-        t.moved,
-        t.offset,
-        t.displaced,
+        search=search,
+        own=t.own,
+        case=benches.cases[w : w + 1],
+        patch_case=t.patch_case,
+        result=t.result,
+        memory=benches.memories[w],
+        damage_parameters=t.damage_parameters,
+        damage_fields=t.damage_fields,
+        damage=t.damage,
+        contacts=benches.contacts[w],
+        total=benches.totals[w : w + 1],
+        ledger=ledger,
+        rail=t.rail,
+        roots=t.roots,
+        moved=t.moved,
+        offset=t.offset,
+        displaced=t.displaced,
     )

@@ -21,23 +21,24 @@ from contact.kernels import kalker
 from contact.kernels.arrays import Givens, Integers, Matrix, Numbers
 from contact.kernels.geometry.search import axle
 from contact.kernels.records import GIVEN
-from models.vehicle.kernels.layout import ELASTIC
+
+from .layout import ELASTIC
 
 Array = NDArray[np.float64]
 
-#: Changes since the last solution from which on a contact is solved: of the approach, over it, and along the surface [m].
-#: Who moves further may meet another part of the rail.
+#: Changes since the last solution from which on a contact is solved anew: of the approach, relative to it, and along the
+#: surface [m]. A contact that moves further may meet another part of the rail.
 _DEEPER, _ASIDE = 0.1, 5e-5
-#: Share of the tolerance below which one more step may pass.
+#: Error of the prediction, relative to the tolerance, below which one more step may pass.
 _EASY = 0.3
-#: Weight of the newest in the usual miss after one step, and the largest that counts, over the tolerance.
+#: Weight of the newest error in the mean error after one step, and the largest error that counts, relative to the tolerance.
 _NEWEST, _LOUDEST = 0.01, 2.0
-#: Share of the difference found at a solution that the next drift takes up.
+#: Share of the error of the prediction that is added to the drift.
 _TAKEN = 0.5
 
 
 class Load(IntEnum):
-    """What is followed between solutions: members of WHEEL."""
+    """Loads of a wheel that are predicted between solutions: members of WHEEL."""
 
     X = 0
     Y = 1
@@ -52,7 +53,7 @@ class Load(IntEnum):
 
 
 class Held(NamedTuple):
-    """What is kept of the last solution of every wheel, besides its contacts."""
+    """The last solution of every wheel, besides its contacts, and the prediction of the next."""
 
     asked: Givens  # one each
     answers: Matrix  # shape (wheels, len(Load))
@@ -60,7 +61,7 @@ class Held(NamedTuple):
     expected: Matrix
     ages: Integers  # steps since the last solution; 0 where there is none
     paces: Integers  # steps from the last solution to the next
-    noises: Numbers  # usual miss of a force after one step [N]
+    noises: Numbers  # mean error of the predicted force after one step [N]
     loads: Numbers  # static load [N]
     solutions: Integers  # their number so far
     pending: Numbers  # distance rolled of which the damage is not counted yet [m]; negative where it is counted ahead
@@ -69,28 +70,28 @@ class Held(NamedTuple):
 
 
 def held(loads: Array, pace: int, tolerance: float) -> Held:
-    """Return arrays of wheels with static loads [N] that hold nothing."""
+    """Return these arrays for wheels with static `loads` [N], before the first solution."""
     n = loads.size
     answers, drifts, expected = (np.zeros((n, len(Load))) for _ in range(3))
     ages, paces, solutions = (np.zeros(n, np.int64) for _ in range(3))
     return Held(
-        np.zeros(n, GIVEN),
-        answers,
-        drifts,
-        expected,
-        ages,
-        paces,
-        np.zeros(n),
-        loads,
-        solutions,
-        np.zeros(n),
-        pace,
-        tolerance,
+        asked=np.zeros(n, GIVEN),
+        answers=answers,
+        drifts=drifts,
+        expected=expected,
+        ages=ages,
+        paces=paces,
+        noises=np.zeros(n),
+        loads=loads,
+        solutions=solutions,
+        pending=np.zeros(n),
+        pace=pace,
+        tolerance=tolerance,
     )
 
 
 @kernel
-def take(wheel, row):
+def read_loads(wheel, row):
     """Copy the loads of a wheel to a row."""
     row[Load.X], row[Load.Y], row[Load.Z] = wheel.longitudinal, wheel.lateral, wheel.vertical
     row[Load.MX], row[Load.MY], row[Load.MZ] = wheel.moment_x, wheel.moment_y, wheel.moment_z
@@ -99,7 +100,7 @@ def take(wheel, row):
 
 
 @kernel
-def put(row, wheel):
+def set_loads(row, wheel):
     """Copy the loads of a row to a wheel."""
     wheel.longitudinal, wheel.lateral, wheel.vertical = row[Load.X], row[Load.Y], row[Load.Z]
     wheel.moment_x, wheel.moment_y, wheel.moment_z = row[Load.MX], row[Load.MY], row[Load.MZ]
@@ -150,10 +151,10 @@ def _lever(axis, x, y, z, c, s):
 
 
 @kernel
-def expect(asked, now, seat, bench, n, row):
-    """Add to `row` what `n` contacts do more at `now` than at the last solution. Return whether they have hardly moved.
+def predict(asked, now, seat, bench, n, row):
+    """Add to `row` the change of the loads of `n` contacts since the last solution. Return whether they have hardly moved.
 
-    `asked` is what the last solution was for.
+    `now` and `asked` are the inputs of the contacts now and at the last solution.
     """
     shear = bench.case[0].G * bench.case[0].slope
     c11, c22, _, _ = kalker.coefficients(bench.own.tables.kalker, 0.0)
@@ -210,28 +211,28 @@ def expect(asked, now, seat, bench, n, row):
 
 
 @kernel
-def learn(own, w, wheel, near):
-    """Take the solution of wheel `w` up: compare it with what was expected, and set drift and pace until the next one.
+def update_prediction(last, w, wheel, near):
+    """Compare the solution of wheel `w` with its prediction, and set drift and pace until the next solution.
 
-    `near` says whether anything was expected.
+    `near` says whether there was a prediction.
     """
-    answer, drift, expected = own.answers[w], own.drifts[w], own.expected[w]
-    take(wheel, answer)
-    own.solutions[w] += 1
+    answer, drift, expected = last.answers[w], last.drifts[w], last.expected[w]
+    read_loads(wheel, answer)
+    last.solutions[w] += 1
     if not near:
         drift[:] = 0.0
-        own.paces[w] = 1
+        last.paces[w] = 1
         return
     missed = max(
         abs(answer[Load.X] - expected[Load.X]),
         max(abs(answer[Load.Y] - expected[Load.Y]), abs(answer[Load.Z] - expected[Load.Z])),
     )
     for i in range(drift.size):
-        drift[i] += _TAKEN * (answer[i] - expected[i]) / own.ages[w]
-    allowed = own.tolerance * own.loads[w]
-    if own.ages[w] == 1:  # no pace is better than that
-        own.noises[w] += _NEWEST * (min(missed, _LOUDEST * allowed) - own.noises[w])
-    if missed > allowed + 2.0 * own.noises[w]:
-        own.paces[w] = 1
-    elif missed < _EASY * allowed + own.noises[w]:
-        own.paces[w] = min(own.paces[w] + 1, own.pace)
+        drift[i] += _TAKEN * (answer[i] - expected[i]) / last.ages[w]
+    allowed = last.tolerance * last.loads[w]
+    if last.ages[w] == 1:  # no pace is better than that
+        last.noises[w] += _NEWEST * (min(missed, _LOUDEST * allowed) - last.noises[w])
+    if missed > allowed + 2.0 * last.noises[w]:
+        last.paces[w] = 1
+    elif missed < _EASY * allowed + last.noises[w]:
+        last.paces[w] = min(last.paces[w] + 1, last.pace)

@@ -15,14 +15,15 @@ from enum import IntEnum
 
 from contact.core import COMPILING, entry, kernel
 from contact.kernels.arrays import Integers, Search
-from models.vehicle.kernels.benches import Benches
-from models.vehicle.kernels.frames import speed_at
-from models.vehicle.kernels.layout import Book, Model, Scratch, State
-from models.vehicle.kernels.motion import ask, move
-from models.vehicle.kernels.wheels import follow_wheel
+
+from .benches import Benches
+from .frames import speed_at
+from .layout import Book, Model, Scratch, State
+from .motion import move, prepare_contacts
+from .wheels import follow_wheel
 
 
-class Line(IntEnum):
+class Counter(IntEnum):
     """Counters of a crew, each in a cache line of its own."""
 
     NEXT = 0  # wheel of the list; the list is closed from the number of wheels on
@@ -83,19 +84,19 @@ if COMPILING:
 def _work(benches, scratch, counters, codes):
     """Solve wheels of the list until none is left."""
     n = scratch.wheels.size
-    w = _add(counters, Line.NEXT.value, 1)
+    w = _add(counters, Counter.NEXT.value, 1)
     while w < n:
         codes[w] = follow_wheel(benches, scratch, w)
-        _add(counters, Line.SOLVED.value, 1)
-        w = _add(counters, Line.NEXT.value, 1)
+        _add(counters, Counter.SOLVED.value, 1)
+        w = _add(counters, Counter.NEXT.value, 1)
 
 
 @entry
 def serve(benches: Benches[Search], scratch: Scratch, counters: Integers, codes: Integers) -> None:
     """Solve wheels whenever a list is open, until the leader has ended."""
     n, looks = scratch.wheels.size, 0
-    while _look(counters, Line.ENDED.value) == 0:
-        if _look(counters, Line.NEXT.value) < n:
+    while _look(counters, Counter.ENDED.value) == 0:
+        if _look(counters, Counter.NEXT.value) < n:
             _work(benches, scratch, counters, codes)
             looks = 0
         looks += 1
@@ -105,12 +106,12 @@ def serve(benches: Benches[Search], scratch: Scratch, counters: Integers, codes:
 
 @kernel
 def _press_together(benches, scratch, counters, codes):
-    """As `press`, with the helpers: open the list, work, and wait for the last wheel."""
+    """As `solve_contacts`, with the helpers: open the list, work, and wait for the last wheel."""
     n, looks = scratch.wheels.size, 0
-    _set(counters, Line.SOLVED.value, 0)
-    _set(counters, Line.NEXT.value, 0)  # opens the list
+    _set(counters, Counter.SOLVED.value, 0)
+    _set(counters, Counter.NEXT.value, 0)  # opens the list
     _work(benches, scratch, counters, codes)
-    while _look(counters, Line.SOLVED.value) < n:
+    while _look(counters, Counter.SOLVED.value) < n:
         looks += 1
         if looks > _PATIENCE:
             _GIVE_WAY()
@@ -135,10 +136,10 @@ def lead(
     failed = 0
     for _ in range(steps):
         speed = speed_at(model.track, state.books[Book.DISTANCE])
-        ask(model, state, benches.motions, scratch, speed)
+        prepare_contacts(model, state, benches.motions, scratch, speed)
         failed = _press_together(benches, scratch, counters, codes)
         if failed < 0:
             break
         move(model, state, benches.motions, scratch, h, speed)
-    _set(counters, Line.ENDED.value, 1)
+    _set(counters, Counter.ENDED.value, 1)
     return failed

@@ -10,8 +10,9 @@ from __future__ import annotations
 import math
 
 from contact.core import kernel
-from models.vehicle.kernels.frames import member
-from models.vehicle.kernels.layout import Axis, Frame, Kind
+
+from .frames import member
+from .layout import Axis, Kind, TrackFrame
 
 
 @kernel
@@ -20,15 +21,15 @@ def tie(links, frames):
     for k in range(links.size):
         link = links[k]
         a, b = frames[link.a], frames[link.b]
-        c = a[Frame.COS] * b[Frame.COS] + a[Frame.SIN] * b[Frame.SIN]
-        s = b[Frame.SIN] * a[Frame.COS] - b[Frame.COS] * a[Frame.SIN]
-        ca, sa, cb, sb = a[Frame.COS_CANT], a[Frame.SIN_CANT], b[Frame.COS_CANT], b[Frame.SIN_CANT]
+        c = a[TrackFrame.COS] * b[TrackFrame.COS] + a[TrackFrame.SIN] * b[TrackFrame.SIN]
+        s = b[TrackFrame.SIN] * a[TrackFrame.COS] - b[TrackFrame.COS] * a[TrackFrame.SIN]
+        ca, sa, cb, sb = a[TrackFrame.COS_CANT], a[TrackFrame.SIN_CANT], b[TrackFrame.COS_CANT], b[TrackFrame.SIN_CANT]
         turn, offset = link.turn, link.offset
         turn[0, 0], turn[0, 1], turn[0, 2] = c, -s * cb, s * sb
         turn[1, 0], turn[1, 1], turn[1, 2] = ca * s, ca * c * cb + sa * sb, -ca * c * sb + sa * cb
         turn[2, 0], turn[2, 1], turn[2, 2] = -sa * s, -sa * c * cb + ca * sb, sa * c * sb + ca * cb
-        x, y = b[Frame.X] - a[Frame.X], b[Frame.Y] - a[Frame.Y]
-        ahead, aside = a[Frame.COS] * x + a[Frame.SIN] * y, a[Frame.COS] * y - a[Frame.SIN] * x
+        x, y = b[TrackFrame.X] - a[TrackFrame.X], b[TrackFrame.Y] - a[TrackFrame.Y]
+        ahead, aside = a[TrackFrame.COS] * x + a[TrackFrame.SIN] * y, a[TrackFrame.COS] * y - a[TrackFrame.SIN] * x
         offset[0], offset[1], offset[2] = ahead, ca * aside, -sa * aside
 
 
@@ -179,9 +180,9 @@ def _series(element, inner, j, d, h, power):
 def _turn(element, link, frames, q, forces, power):
     """Add the moments of springs about the axes."""
     a, b, turn = link.a, link.b, link.turn
-    roll = q[b, Axis.ROLL] + frames[b, Frame.CANT] - q[a, Axis.ROLL] - frames[a, Frame.CANT]
+    roll = q[b, Axis.ROLL] + frames[b, TrackFrame.CANT] - q[a, Axis.ROLL] - frames[a, TrackFrame.CANT]
     pitch = q[b, Axis.PITCH] - q[a, Axis.PITCH]
-    yaw = q[b, Axis.YAW] + frames[b, Frame.DIRECTION] - q[a, Axis.YAW] - frames[a, Frame.DIRECTION]
+    yaw = q[b, Axis.YAW] + frames[b, TrackFrame.DIRECTION] - q[a, Axis.YAW] - frames[a, TrackFrame.DIRECTION]
     k = element.turning
     moment = (k[0] * roll, k[1] * pitch, k[2] * yaw)
     power[2] += 0.5 * (moment[0] * roll + moment[1] * pitch + moment[2] * yaw)

@@ -6,7 +6,8 @@ import math
 
 from contact.core import entry, kernel
 from contact.kernels.arrays import Matrix, Numbers
-from models.vehicle.kernels.layout import Axis, Body, Frame, Model, Row
+
+from .layout import Axis, Body, Model, TrackFrame, TrackRow
 
 
 @kernel
@@ -24,8 +25,8 @@ def place_on(track, s):
     Beyond the ends the last interval counts.
     """
     n = track.shape[1]
-    first = track[Row.PLACE, 0]
-    width = (track[Row.PLACE, n - 1] - first) / (n - 1)
+    first = track[TrackRow.PLACE, 0]
+    width = (track[TrackRow.PLACE, n - 1] - first) / (n - 1)
     k = math.floor((s - first) / width)
     k = min(max(k, 0), n - 2)
     return k, s - first - k * width, width
@@ -49,7 +50,7 @@ def smooth(track, row, k, t, width):
 def speed_at(track: Matrix, s: float) -> float:
     """Return the speed [m/s] that is given at `s` [m]."""
     k, d, width = place_on(track, s)
-    return linear(track, Row.SPEED, k, d / width)
+    return linear(track, TrackRow.SPEED, k, d / width)
 
 
 @entry
@@ -59,29 +60,29 @@ def lay_frames(model: Model, s: float, speed: float, frames: Matrix) -> None:
     for i in range(bodies.size):
         k, d, width = place_on(track, s + bodies[i].place)
         t = d / width
-        direction, curvature = track[Row.DIRECTION, k], track[Row.CURVATURE, k]
-        growth = (track[Row.CURVATURE, k + 1] - curvature) / width
+        direction, curvature = track[TrackRow.DIRECTION, k], track[TrackRow.CURVATURE, k]
+        growth = (track[TrackRow.CURVATURE, k + 1] - curvature) / width
         c, sn = math.cos(direction), math.sin(direction)
         ahead, aside = d, d * d * (0.5 * curvature + growth * d / 6.0)
         frame = frames[i]
-        frame[Frame.X] = track[Row.X, k] + c * ahead - sn * aside
-        frame[Frame.Y] = track[Row.Y, k] + sn * ahead + c * aside
+        frame[TrackFrame.X] = track[TrackRow.X, k] + c * ahead - sn * aside
+        frame[TrackFrame.Y] = track[TrackRow.Y, k] + sn * ahead + c * aside
         direction += d * (curvature + 0.5 * growth * d)
-        cant, cant_slope = smooth(track, Row.CANT, k, t, width)
+        cant, cant_slope = smooth(track, TrackRow.CANT, k, t, width)
         turning = speed * (curvature + growth * d)
-        frame[Frame.DIRECTION], frame[Frame.CANT] = direction, cant
-        frame[Frame.COS], frame[Frame.SIN] = math.cos(direction), math.sin(direction)
-        frame[Frame.COS_CANT], frame[Frame.SIN_CANT] = math.cos(cant), math.sin(cant)
-        frame[Frame.RATE_X] = speed * cant_slope
-        frame[Frame.RATE_Y] = turning * frame[Frame.SIN_CANT]
-        frame[Frame.RATE_Z] = turning * frame[Frame.COS_CANT]
+        frame[TrackFrame.DIRECTION], frame[TrackFrame.CANT] = direction, cant
+        frame[TrackFrame.COS], frame[TrackFrame.SIN] = math.cos(direction), math.sin(direction)
+        frame[TrackFrame.COS_CANT], frame[TrackFrame.SIN_CANT] = math.cos(cant), math.sin(cant)
+        frame[TrackFrame.RATE_X] = speed * cant_slope
+        frame[TrackFrame.RATE_Y] = turning * frame[TrackFrame.SIN_CANT]
+        frame[TrackFrame.RATE_Z] = turning * frame[TrackFrame.COS_CANT]
 
 
 @entry
 def carried(frame: Numbers, body: Body, q: Numbers, speed: float, axis: int) -> float:
     """Return the absolute velocity along or about `axis` of a body that stands still in its frame."""
     x, y, z = q[Axis.X], q[Axis.Y], q[Axis.Z] - body.height
-    wx, wy, wz = frame[Frame.RATE_X], frame[Frame.RATE_Y], frame[Frame.RATE_Z]
+    wx, wy, wz = frame[TrackFrame.RATE_X], frame[TrackFrame.RATE_Y], frame[TrackFrame.RATE_Z]
     if axis == Axis.X:
         return speed + wy * z - wz * y
     if axis == Axis.Y:
@@ -117,7 +118,7 @@ def gyrate(frames, bodies, u, forces):
     for i in range(bodies.size):
         body, frame = bodies[i], frames[i]
         m, ix, iy, iz = body.mass, body.inertia[0], body.inertia[1], body.inertia[2]
-        wx, wy, wz = frame[Frame.RATE_X], frame[Frame.RATE_Y], frame[Frame.RATE_Z]
+        wx, wy, wz = frame[TrackFrame.RATE_X], frame[TrackFrame.RATE_Y], frame[TrackFrame.RATE_Z]
         ux, uy, uz = u[i, Axis.X], u[i, Axis.Y], u[i, Axis.Z]
         forces[i, Axis.X] -= m * (wy * uz - wz * uy)
         forces[i, Axis.Y] -= m * (wz * ux - wx * uz)

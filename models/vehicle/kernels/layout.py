@@ -28,7 +28,7 @@ class Axis(IntEnum):
     YAW = 5
 
 
-class Frame(IntEnum):
+class TrackFrame(IntEnum):
     """The track frame at a body: place of its origin in the plan [m], direction, cant and their rates."""
 
     X = 0
@@ -44,7 +44,7 @@ class Frame(IntEnum):
     CANT = 10  # [rad], positive where the left rail is higher
 
 
-class Row(IntEnum):
+class TrackRow(IntEnum):
     """Rows of a track over equally spaced places. Those of the right rail come before those of the left one."""
 
     X = 0
@@ -68,7 +68,7 @@ class Row(IntEnum):
 
 
 #: Rows between those of the right and of the left rail.
-TO_LEFT = Row.LEFT_Y - Row.RIGHT_Y
+TO_LEFT = TrackRow.LEFT_Y - TrackRow.RIGHT_Y
 
 
 #: Share of load times approach that a contact stores: exact for an elliptic one.
@@ -225,7 +225,7 @@ class Scratch(NamedTuple):
 def scratch(bodies: int, wheelsets: int) -> Scratch:
     """Return scratch arrays."""
     return Scratch(
-        np.zeros((bodies, len(Frame))),
+        np.zeros((bodies, len(TrackFrame))),
         np.zeros((bodies, 6)),
         np.zeros(2 * wheelsets, GIVEN),
         np.zeros(2 * wheelsets, SEAT),

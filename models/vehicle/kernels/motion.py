@@ -4,11 +4,12 @@ from __future__ import annotations
 
 from contact.core import entry, kernel
 from contact.kernels.arrays import Motions, Numbers, Search
-from models.vehicle.kernels.benches import Benches
-from models.vehicle.kernels.elements import pull
-from models.vehicle.kernels.frames import carried, drift, gyrate, lay_frames, speed_at
-from models.vehicle.kernels.layout import Axis, Book, Frame, Model, Scratch, State
-from models.vehicle.kernels.wheels import act, count, press, rail_energy, seat, sink
+
+from .benches import Benches
+from .elements import pull
+from .frames import carried, drift, gyrate, lay_frames, speed_at
+from .layout import Axis, Book, Model, Scratch, State, TrackFrame
+from .wheels import add_wheel_forces, advance_rails, count, fill_inputs, rail_energy, solve_contacts
 
 #: A normal force above this multiple of the static one is an impact.
 _IMPACT = 2.0
@@ -43,11 +44,11 @@ def _load(model, state, motions, h, scratch):
     pull(model, state, h, scratch)
     for i in range(model.bodies.size):
         body, frame = model.bodies[i], scratch.frames[i]
-        scratch.forces[i, Axis.Y] += body.mass * 9.81 * frame[Frame.SIN_CANT]
-        scratch.forces[i, Axis.Z] += body.mass * 9.81 * frame[Frame.COS_CANT]
+        scratch.forces[i, Axis.Y] += body.mass * 9.81 * frame[TrackFrame.SIN_CANT]
+        scratch.forces[i, Axis.Z] += body.mass * 9.81 * frame[TrackFrame.COS_CANT]
         if body.wheelset != 0:
             scratch.forces[i, Axis.PITCH] -= body.torque
-    act(model, state, motions, scratch)
+    add_wheel_forces(model, state, motions, scratch)
 
 
 @kernel
@@ -89,9 +90,9 @@ def _kick(model, state, scratch, h):
                 state.u[i, j] += h * scratch.forces[i, j] / _inertia(body, j)
             mean = 0.5 * (before + state.u[i, j])
             if j == Axis.Y:
-                books[Book.WEIGHT] += h * body.mass * 9.81 * frame[Frame.SIN_CANT] * mean
+                books[Book.WEIGHT] += h * body.mass * 9.81 * frame[TrackFrame.SIN_CANT] * mean
             elif j == Axis.Z:
-                books[Book.WEIGHT] += h * body.mass * 9.81 * frame[Frame.COS_CANT] * mean
+                books[Book.WEIGHT] += h * body.mass * 9.81 * frame[TrackFrame.COS_CANT] * mean
             elif j == Axis.PITCH and body.wheelset != 0:
                 books[Book.TORQUE] -= h * body.torque * mean
 
@@ -113,16 +114,16 @@ def place(model: Model, state: State, motions: Motions, heights: Numbers, start:
 
 
 @entry
-def ask(model: Model, state: State, motions: Motions, scratch: Scratch, speed: float) -> None:
-    """Fill the frames and what each contact is asked at the present state (`scratch.given`, `scratch.seats`)."""
+def prepare_contacts(model: Model, state: State, motions: Motions, scratch: Scratch, speed: float) -> None:
+    """Fill the frames and the inputs of every contact at the present state (`scratch.given`, `scratch.seats`)."""
     s = state.books[Book.DISTANCE]
     lay_frames(model, s, speed, scratch.frames)
-    seat(model, state, s, motions, scratch)
+    fill_inputs(model, state, s, motions, scratch)
 
 
 @entry
 def move(model: Model, state: State, motions: Motions, scratch: Scratch, h: float, speed: float) -> None:
-    """Advance by `h` [s] after `ask`, with the answers of the contacts in `scratch.wheels`."""
+    """Advance by `h` [s] after `prepare_contacts`, with the forces of the contacts in `scratch.wheels`."""
     books = state.books
     work = _hold(model, state, speed, scratch, h)
     _load(model, state, motions, h, scratch)
@@ -133,7 +134,7 @@ def move(model: Model, state: State, motions: Motions, scratch: Scratch, h: floa
     books[Book.DISSIPATED] += h * scratch.power[1]
     _kick(model, state, scratch, h)
     drift(scratch.frames, model.bodies, state.q, state.u, speed, h)
-    books[Book.DAMPER] += sink(model, state, scratch.wheels, h)
+    books[Book.DAMPER] += advance_rails(model, state, scratch.wheels, h)
     books[Book.DISTANCE] += h * speed
     books[Book.TIME] += h
     books[Book.STEPS] += 1.0
@@ -141,10 +142,10 @@ def move(model: Model, state: State, motions: Motions, scratch: Scratch, h: floa
 
 @kernel
 def step(model, state, benches, scratch, h):
-    """Advance by `h` [s]; return 0 or the code of `press`. Forces in `scratch` are those before the step."""
+    """Advance by `h` [s]; return 0 or the code of `solve_contacts`. Forces in `scratch` are those before the step."""
     speed = speed_at(model.track, state.books[Book.DISTANCE])
-    ask(model, state, benches.motions, scratch, speed)
-    failed = press(benches, scratch)
+    prepare_contacts(model, state, benches.motions, scratch, speed)
+    failed = solve_contacts(benches, scratch)
     if failed < 0:
         return failed
     move(model, state, benches.motions, scratch, h, speed)
@@ -153,7 +154,7 @@ def step(model, state, benches, scratch, h):
 
 @entry
 def advance(model: Model, state: State, benches: Benches[Search], scratch: Scratch, h: float, steps: int) -> int:
-    """Advance by `steps` steps of `h` [s]; return 0 or the code of `press` at the step that failed."""
+    """Advance by `steps` steps of `h` [s]; return 0 or the code of `solve_contacts` at the step that failed."""
     for _ in range(steps):
         failed = step(model, state, benches, scratch, h)
         if failed < 0:

@@ -9,29 +9,30 @@ from contact.kernels.arrays import Bench, Given, Search, SurfaceSearch
 from contact.kernels.enumerations import Height, Status
 from contact.kernels.geometry.search import axle
 from contact.kernels.pair import solve_pair
-from models.vehicle.kernels.benches import Benches, bench_of
-from models.vehicle.kernels.between import expect, learn, put
-from models.vehicle.kernels.frames import linear, place_on, smooth
-from models.vehicle.kernels.layout import (
+
+from .benches import Benches, bench_of
+from .between import predict, set_loads, update_prediction
+from .frames import linear, place_on, smooth
+from .layout import (
     ELASTIC,
     TO_LEFT,
     Axis,
     Book,
-    Frame,
     Model,
-    Row,
     Scratch,
     Seat,
     State,
     Sum,
+    TrackFrame,
+    TrackRow,
     Wheel,
     Wheels,
 )
 
 
 @kernel
-def seat(model, state, s, motions, scratch):
-    """Fill what each contact is asked: motion of axle and rail, and friction (`scratch.given`, `scratch.seats`).
+def fill_inputs(model, state, s, motions, scratch):
+    """Fill the inputs of every contact: motion of axle and rail, and friction (`scratch.given`, `scratch.seats`).
 
     `motions` are the constants of the pairs, records MOTION.
     """
@@ -40,15 +41,15 @@ def seat(model, state, s, motions, scratch):
         i = model.wheelsets[axle_number]
         q, u = state.q[i], state.u[i]
         k, d, width = place_on(track, s + model.bodies[i].place)
-        t, ramp = d / width, scratch.frames[i, Frame.RATE_X]
+        t, ramp = d / width, scratch.frames[i, TrackFrame.RATE_X]
         for side in range(2):
             w, row = 2 * axle_number + side, side * TO_LEFT
             rail, given, here, motion = state.rails[axle_number, side], scratch.given[w], scratch.seats[w], motions[w]
-            y, along_y = smooth(track, Row.RIGHT_Y + row, k, t, width)
-            z, along_z = smooth(track, Row.RIGHT_Z + row, k, t, width)
+            y, along_y = smooth(track, TrackRow.RIGHT_Y + row, k, t, width)
+            z, along_z = smooth(track, TrackRow.RIGHT_Z + row, k, t, width)
             here.along_y, here.along_z = along_y, along_z
-            here.friction = linear(track, Row.RIGHT_FRICTION + row, k, t) * model.surface[0]
-            here.kinetic = linear(track, Row.RIGHT_FRICTION + row, k, t) * model.surface[1]
+            here.friction = linear(track, TrackRow.RIGHT_FRICTION + row, k, t) * model.surface[0]
+            here.kinetic = linear(track, TrackRow.RIGHT_FRICTION + row, k, t) * model.surface[1]
             given.y, given.z, given.roll, given.yaw = q[Axis.Y], q[Axis.Z], q[Axis.ROLL], q[Axis.YAW] - along_y
             given.vx, given.vy, given.vz = u[Axis.X], u[Axis.Y], u[Axis.Z]
             given.roll_rate, given.yaw_rate, given.spin = u[Axis.ROLL], u[Axis.YAW], u[Axis.PITCH]
@@ -61,8 +62,8 @@ def seat(model, state, s, motions, scratch):
 
 
 @entry
-def press_one(bench: Bench[SurfaceSearch], given: Given, here: Seat, wheel: Wheel) -> int:
-    """Solve the contact of one wheel for what `seat` has filled, and fill `wheel`; return as `solve_pair`."""
+def solve_contact(bench: Bench[SurfaceSearch], given: Given, here: Seat, wheel: Wheel) -> int:
+    """Solve the contact of one wheel for the inputs of `fill_inputs`. Fill `wheel`; return as `solve_pair`."""
     case = bench.case[0]
     case.mu, case.kinetic, case.speed = here.friction, here.kinetic, given.vx
     n = solve_pair(Height.GIVEN.value, 0.0, given, bench)
@@ -72,51 +73,51 @@ def press_one(bench: Bench[SurfaceSearch], given: Given, here: Seat, wheel: Whee
 
 
 @kernel
-def press_wheel(benches, scratch, w):
-    """Solve the contact of wheel `w`; see `press_one`."""
-    return press_one(bench_of(benches, w), scratch.given[w], scratch.seats[w], scratch.wheels[w])
+def solve_wheel(benches, scratch, w):
+    """Solve the contact of wheel `w`; see `solve_contact`."""
+    return solve_contact(bench_of(benches, w), scratch.given[w], scratch.seats[w], scratch.wheels[w])
 
 
 @entry
 def follow_wheel(benches: Benches[Search], scratch: Scratch, w: int) -> int:
-    """Fill what wheel `w` does: from the last solution of its contact if that is near enough, else by `press_wheel`.
+    """Fill the forces of wheel `w`: from the last solution of its contact if that is near enough, else by `solve_wheel`.
 
     ``benches.settings[w].distance`` is the distance of this step of which the damage is counted [m]. A solution counts for the
-    steps around it. Returns as `press_wheel`.
+    steps around it. Returns as `solve_wheel`.
     """
-    own, given, wheel, setting = benches.held, scratch.given[w], scratch.wheels[w], benches.settings[w]
-    if own.pace <= 1:
-        return press_wheel(benches, scratch, w)
+    last, given, wheel, setting = benches.held, scratch.given[w], scratch.wheels[w], benches.settings[w]
+    if last.pace <= 1:
+        return solve_wheel(benches, scratch, w)
     near, n_before = False, int(wheel.patches)
-    if own.ages[w] > 0:
-        expected = own.expected[w]
+    if last.ages[w] > 0:
+        expected = last.expected[w]
         for i in range(expected.size):
-            expected[i] = own.answers[w, i] + own.ages[w] * own.drifts[w, i]
-        near = expect(own.asked[w], given, scratch.seats[w], bench_of(benches, w), n_before, expected)
-        if near and own.ages[w] < own.paces[w]:
-            put(expected, wheel)
-            own.ages[w] += 1
-            own.pending[w] += setting.distance
+            expected[i] = last.answers[w, i] + last.ages[w] * last.drifts[w, i]
+        near = predict(last.asked[w], given, scratch.seats[w], bench_of(benches, w), n_before, expected)
+        if near and last.ages[w] < last.paces[w]:
+            set_loads(expected, wheel)
+            last.ages[w] += 1
+            last.pending[w] += setting.distance
             return n_before
-    # A solution counts for the steps around it: half of those since the last one, and of those until the next one, as many as
-    # the pace lets expect. What comes otherwise is made up for at the next solution.
-    rolled, due = setting.distance, setting.distance + own.pending[w]
-    setting.distance = max(due + 0.5 * (max(own.paces[w], 1) - 1) * rolled, 0.0)
-    own.pending[w] = due - setting.distance
-    n = press_wheel(benches, scratch, w)
+    # A solution counts for half of the steps since the last one and half of those until the next one, whose number is the
+    # present pace. If the next solution comes earlier or later, it corrects the difference.
+    rolled, due = setting.distance, setting.distance + last.pending[w]
+    setting.distance = max(due + 0.5 * (max(last.paces[w], 1) - 1) * rolled, 0.0)
+    last.pending[w] = due - setting.distance
+    n = solve_wheel(benches, scratch, w)
     setting.distance = rolled
     if n >= 0:
-        learn(own, w, wheel, near and n == n_before)
-        own.asked[w] = given
-        own.ages[w] = 1
+        update_prediction(last, w, wheel, near and n == n_before)
+        last.asked[w] = given
+        last.ages[w] = 1
     return n
 
 
 @kernel
-def press(benches, scratch):
-    """Find what all wheels do, each by `follow_wheel`.
+def solve_contacts(benches, scratch):
+    """Fill the forces of all wheels, each by `follow_wheel`.
 
-    Returns 0, or the number of the wheel from 1 on whose contact has no answer, negative.
+    Return 0, or minus the number, from 1 on, of the wheel whose contact has no solution.
     """
     for w in range(scratch.wheels.size):
         if follow_wheel(benches, scratch, w) < 0:
@@ -125,7 +126,7 @@ def press(benches, scratch):
 
 
 @kernel
-def act(model, state, motions, scratch):
+def add_wheel_forces(model, state, motions, scratch):
     """Add the forces of all wheels, `scratch.wheels`, to those of their axles, and their power and energy to the step's."""
     power = scratch.power
     for w in range(scratch.wheels.size):
@@ -136,7 +137,7 @@ def act(model, state, motions, scratch):
         Mx, My, Mz = wheel.moment_x, wheel.moment_y, wheel.moment_z
         lx, ly, lz = axle(q[Axis.ROLL], yaw)
         climbing = Mx + q[Axis.Y] * Fz - (q[Axis.Z] - motions[w].radius) * Fy
-        ramp = scratch.frames[i, Frame.RATE_X]
+        ramp = scratch.frames[i, TrackFrame.RATE_X]
         forces[Axis.X] += Fx - Fy * here.along_y - Fz * here.along_z - ramp / speed * climbing
         forces[Axis.Y] += Fy
         forces[Axis.Z] += Fz
@@ -149,7 +150,7 @@ def act(model, state, motions, scratch):
 
 @kernel
 def _report(bench, n, wheel):
-    """Fill what one wheel does."""
+    """Fill forces, power and energy of one wheel from its `n` patches."""
     total, largest = bench.total[0], 0
     wheel.longitudinal, wheel.lateral, wheel.vertical = total.Fx, total.Fy, -total.Fz
     wheel.moment_x, wheel.moment_y, wheel.moment_z = total.Mx, total.My, total.Mz
@@ -200,7 +201,7 @@ def count(model: Model, state: State, wheels: Wheels, most: float) -> None:
 
 
 @kernel
-def sink(model, state, wheels, h):
+def advance_rails(model, state, wheels, h):
     """Advance the rails by `h` [s], their dampers implicitly. Return the energy spent in them [J]."""
     m, ky, cy, kz, cz = model.rail[0], model.rail[1], model.rail[2], model.rail[3], model.rail[4]
     if m <= 0.0:

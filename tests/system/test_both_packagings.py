@@ -1,0 +1,195 @@
+"""What WheelRailContact and Wheelset do in the same way in both packagings: bad inputs, lift-off, states, reset."""
+
+import math
+from collections.abc import Callable
+from pathlib import Path
+from typing import NamedTuple
+
+import fmpy
+import pytest
+import wheelset_case
+from contact_case import NAME, posed
+from fmu_instance import DISCARD, Instance, discarded, refused
+from thesis_case import THESIS
+
+import contact
+from models.wheelset.ports import PROBLEM, REACTION
+
+
+class Kind(NamedTuple):
+    """An FMU: what instantiates it, sets it up before its initialisation, and drives it for `steps` steps from a step on."""
+
+    open: Callable[[], Instance]
+    prepare: Callable[[Instance], object]
+    drive: Callable[[Instance, int], list[dict[str, float]]]
+    steps: int
+
+
+def prepared(fmu):
+    """Set the case of `contact_case` and the methods of the thesis."""
+    posed(fmu).update(THESIS)
+    return fmu
+
+
+def trajectory(fmu, start: int) -> list[dict[str, float]]:
+    """Return the outputs of five steps with changing inputs from step `start` on."""
+    rows = []
+    for k in range(start, start + 5):
+        fmu.update({"creepage.lateral": 1e-3 * math.sin(k), "load.normal_force": 8e4 + 1e4 * math.cos(k)})
+        fmu.step(k * 1e-3)
+        rows.append(fmu.all("output"))
+    return rows
+
+
+@pytest.fixture(params=["python", "native"])
+def open_contact(request):
+    """Return a function that instantiates WheelRailContact in each packaging."""
+    if request.param == "native":
+        return request.getfixturevalue("open_native")
+    opened = request.getfixturevalue("open_fmu")
+    return lambda: opened(NAME)
+
+
+@pytest.fixture(params=["python", "native"])
+def open_wheelset(request, tmp_path):
+    """Return a function that instantiates Wheelset in each packaging."""
+    if request.param == "python":
+        opened = request.getfixturevalue("open_fmu")
+        yield lambda: opened("Wheelset")
+        return
+    folder = Path(fmpy.extract(str(request.getfixturevalue("native_wheelset")), str(tmp_path)))
+    instances = []
+
+    def native():
+        instances.append(Instance(folder))
+        return instances[-1]
+
+    yield native
+    for instance in instances:
+        instance.free()
+
+
+@pytest.fixture(params=["contact", "wheelset"])
+def kind(request):
+    """Return each of the two FMUs as a `Kind`."""
+    opened = request.getfixturevalue(f"open_{request.param}")
+    if request.param == "contact":
+        return Kind(opened, prepared, trajectory, 5)
+    return Kind(opened, lambda fmu: fmu.update({"initial.lateral": 1e-3}), wheelset_case.trajectory, 3)
+
+
+@pytest.fixture
+def fmu(open_contact):
+    return prepared(open_contact()).initialize(stop_time=1.0)
+
+
+@pytest.fixture
+def wheelset(open_wheelset):
+    return open_wheelset().initialize()
+
+
+@pytest.mark.parametrize(
+    ("name", "value", "fault"),
+    [
+        ("geometry.g[7]", math.nan, "not finite"),
+        ("geometry.A[41]", -1.0, "outside the allowed range [0, inf["),
+        ("creepage.spin", math.inf, "outside the allowed range [-1e+06, 1e+06]"),
+        ("load.normal_force", -1001.0, "outside the allowed range [-1000, inf["),
+        ("friction.coefficient", math.nan, "outside the allowed range [0, 1e+06]"),
+        ("speed", -1.0, "outside the allowed range [0, inf["),
+    ],
+)
+def test_a_bad_input_is_discarded_by_name_and_the_instance_recovers(fmu, name, value, fault):
+    fmu.step()
+    before, good = fmu.all("output"), fmu[name]
+    fmu.update({name: value})
+    for _ in range(7):  # the fifth exception in a pythonfmu callback would crash the host
+        assert discarded(fmu, 1e-3) == f"{name} = {value:g} is {fault}"
+    assert fmu.all("output") == before
+    fmu.update({name: good})
+    fmu.step(1e-3)
+    assert fmu["force.x"] == before["force.x"]
+    assert fmu["total.energy"] == pytest.approx(2.0 * before["total.energy"], rel=1e-12)
+
+
+@pytest.mark.parametrize("name", ["right.force.y", "left.approach", "irregularity.slope"])
+def test_a_bad_input_of_a_wheelset_is_discarded_by_name_and_the_instance_recovers(wheelset, name):
+    before, good = wheelset.all("output"), wheelset[name]
+    wheelset.update({name: math.nan})
+    assert discarded(wheelset) == f"{name} = nan is not finite"
+    assert wheelset.all("output") == before
+    wheelset.update({name: good})
+    wheelset.step(0.0)
+
+
+def test_a_derailment_is_discarded_and_leaves_the_wheelset_where_it_was(wheelset):
+    wheelset_case.trajectory(wheelset, 0)
+    before = wheelset.all("output")
+    wheelset.update({"right.force.y": 1e9})
+    refused(wheelset.step, DISCARD)
+    assert "wheel" in wheelset.log[-1][1] or "rails" in wheelset.log[-1][1]
+    assert wheelset.all("output") == before
+    assert wheelset_case.trajectory(wheelset, 3)[-1]["lateral"] == pytest.approx(before["lateral"], abs=1e-4)
+
+
+def test_lift_off_is_a_valid_result(fmu):
+    fmu.update({"load.normal_force": 0.0})
+    fmu.step()
+    outputs = fmu.all("output")
+    assert outputs["status_real"] == contact.Status.NO_CONTACT
+    assert not any(value for name, value in outputs.items() if name not in ("status_real", "approach"))
+    assert not fmu.log
+
+
+def test_connectors_at_zero_give_no_contact_without_load_and_a_flat_contact_with_load(fmu):
+    """A master without knowledge of start values gives zeros. Curvature 0 is then not an error."""
+    good = {name: fmu[name] for name in PROBLEM}
+    fmu.step()
+    before = fmu["force.x"]
+    fmu.update(dict.fromkeys(PROBLEM, 0.0))
+    fmu.step(1e-3)
+    assert fmu["status"] == contact.Status.NO_CONTACT
+    assert not any(fmu[name] for name in REACTION)
+    fmu.update({"load.normal_force": 1e3})
+    fmu.step(2e-3)
+    assert fmu["status"] == contact.Status.OUT_OF_RANGE
+    fmu.update(good)
+    fmu.step(3e-3)
+    assert fmu["force.x"] == before
+
+
+def test_a_patch_beyond_the_separation_is_reported_once(fmu):
+    fmu.update({f"geometry.g[{i}]": 1e-9 * (i - 21) ** 2 for i in range(1, 42)})
+    for k in range(3):
+        fmu.step(k * 1e-3)
+    assert fmu["status"] == contact.Status.OUT_OF_RANGE
+    assert all(math.isfinite(value) for value in fmu.all("output").values())
+    assert [message.split(":")[0] for _, message in fmu.log] == ["status OUT_OF_RANGE"]
+
+
+def test_a_restored_or_serialised_state_continues_bit_by_bit(kind):
+    fmu = kind.open()
+    kind.prepare(fmu)
+    kind.drive(fmu.initialize(), 0)
+    state = fmu.fmu.getFMUstate()
+    content = fmu.fmu.serializeFMUstate(state)
+    values = fmu.all("input", "output", "parameter")
+    wanted = kind.drive(fmu, kind.steps)
+    fmu.fmu.setFMUstate(state)
+    assert fmu.all("input", "output", "parameter") == values
+    assert kind.drive(fmu, kind.steps) == wanted
+    fmu.fmu.freeFMUstate(state)
+    other = kind.open().initialize()
+    copy = other.fmu.deSerializeFMUstate(content)
+    other.fmu.setFMUstate(copy)
+    other.fmu.freeFMUstate(copy)
+    assert kind.drive(other, kind.steps) == wanted
+
+
+def test_reset_restores_every_start(kind):
+    wanted = kind.open().initialize().all("input", "output", "parameter")
+    fmu = kind.open()
+    kind.prepare(fmu)
+    kind.drive(fmu.initialize(), 0)
+    fmu.fmu.reset()
+    assert fmu.initialize().all("input", "output", "parameter") == wanted
