@@ -36,6 +36,7 @@ from contact.kernels.pipeline import press_case, roll_case
 from contact.kernels.records import MAX_PATCHES, SLOWEST
 from contact.kernels.result import clear, clear_forces
 from contact.kernels.rows import Moved, Sep
+from contact.kernels.tangential.together import COPIES, fits_together, roll_together, sum_copy
 
 #: What the forces of a patch are derived by: three creepages, the coefficient of friction, the speed of a friction law.
 MU, SPEED = 3, 4
@@ -151,6 +152,10 @@ def _roll_moved(k, samples, n, own, aside):
     patch, contact = bench.search.patches[k], bench.contacts[k]
     bench.case[1], bench.result[1] = bench.patch_case[0], bench.result[0]
     case, result, middle = bench.case[1], bench.result[1], bench.result[0]
+    together = fits_together(n, case, middle, own.strips)
+    if together:
+        creepage, spin = creepage_step(case, middle)
+        roll_together(n, creepage, spin, case, own)
     for c in range(CREEPS):
         even = is_even(case) and case.mu > 0.0
         if c == SPEED and case.law == FrictionLaw.COULOMB and not case.drop > 0.0:
@@ -167,7 +172,10 @@ def _roll_moved(k, samples, n, own, aside):
         bench.case[1] = bench.patch_case[0]
         step = _step_of(c, case, middle)
         clear_forces(result)
-        roll_case(samples, n, case, own, result)
+        if together and c < COPIES:
+            result.Fx, result.Fy, result.Mz, result.power = sum_copy(n, c, own.strips)
+        else:
+            roll_case(samples, n, case, own, result)
         scale, Fx, Fy = patch.share / step if step > 0.0 else 0.0, result.Fx - middle.Fx, result.Fy - middle.Fy
         _add_tangential(scale, Fx, Fy, result.Mz - middle.Mz, contact, bench, aside.by_creep[k, c])
 

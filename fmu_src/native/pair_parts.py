@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from typing import Any
 
@@ -13,8 +14,9 @@ from contact.damage import DamageParameters
 from contact.geometry.wheelset import TAPE_FROM_FLANGE_BACK
 from contact.kernels import block
 from contact.kernels.entries.layout import forget_forged
-from contact.kernels.enumerations import Height, NoAnswer
+from contact.kernels.enumerations import FrictionLaw, Height, NoAnswer
 from contact.kernels.flexible import solve_flexible
+from contact.kernels.pair_conditions import derive_pair
 from contact.kernels.records import (
     CASE,
     DAMAGE_PARAMETERS,
@@ -24,6 +26,7 @@ from contact.kernels.records import (
     TOTAL,
     WHEEL_OFFSET,
 )
+from contact.kernels.rows import Moved
 from fmu_src.differences import creepage_steps
 from fmu_src.native.components import Failure
 from fmu_src.native.memory import compiled, numbers_of
@@ -148,6 +151,26 @@ def reporter(table: Table) -> Callable[..., Any]:
         v[at.rail_deflection_y], v[at.rail_deflection_z] = bench.rail[0].dy, bench.rail[0].dz
 
     return report
+
+
+def deriver(table: Table) -> Callable[..., Any]:
+    """Return a compiled function that fills `derived` from the last solution of a bench (`components.PAIR_DERIVED`)."""
+    at = references(table)
+
+    @compiled
+    def derive(values, v, bench, aside, derived):
+        given, _ = block.records(values, at.pose_y, 1, GIVEN)
+        n = derive_pair(_HEIGHT[int(v[at.load_kind]) - 1], given[0], bench, aside)
+        for j in range(derived.shape[1]):
+            known = n > 0 and aside.sides[j] < 1.5  # else patches come and go
+            if j == Moved.AMOUNT:
+                known = known and v[at.load_normal_force] > 0.0
+            elif j == Moved.FRICTION:  # the jacobian scales a law of friction as a whole
+                known = known and bench.case[0].law == FrictionLaw.COULOMB
+            for i in range(derived.shape[0]):
+                derived[i, j] = aside.jacobian[i, j] if known else math.nan
+
+    return derive
 
 
 def differ(table: Table) -> Callable[..., Any]:
