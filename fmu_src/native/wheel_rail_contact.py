@@ -209,12 +209,6 @@ def _report(v, rows, a):
 
 
 @compiled
-def _creepages(v, at):
-    """Return the steps of the three creepages for difference quotients."""
-    return _steps(v[at.friction_coefficient], v[at.force_n], v[at.material_shear_modulus], v[at.patch_area])
-
-
-@compiled
 def _difference(v, at, reference):
     """Return a step so small that elements hardly ever change from stick to slip within it, where forces have kinks.
 
@@ -225,10 +219,11 @@ def _difference(v, at, reference):
     are solved from a cold start, so that the tolerance of interacting strips, 1e-4, gives the same error on both sides.
     """
     if at.creepage_longitudinal <= reference <= at.creepage_spin:
-        longitudinal, lateral, spin = _creepages(v, at)
+        mu, N, G, area = v[at.friction_coefficient], v[at.force_n], v[at.material_shear_modulus], v[at.patch_area]
+        longitudinal, lateral, spin = _steps(mu, N, G, area)
         if reference == at.creepage_spin:
-            return 1e-3 * spin
-        return 1e-3 * (lateral if reference == at.creepage_lateral else longitudinal)
+            return spin
+        return lateral if reference == at.creepage_lateral else longitudinal
     stiffness = v[at.stiffness_normal]
     penetration = 1.5 * v[at.force_n] / stiffness if stiffness > 0.0 else 1e-6  # N ~ its ^3/2
     if reference == at.load_approach:

@@ -76,6 +76,11 @@ static int row_of(const Instance *instance, uint64_t reference)
     return -1;
 }
 
+static Status not_finite(const Instance *instance, Reference unknown)
+{
+    return report(instance, LOG_DISCARD, "%s has no finite derivative here", TEXT(instance->table.variables[unknown].name));
+}
+
 enum { IN_MATRIX = 1, NOT_IN_MATRIX = 2 };
 
 /* Fill the results of the unknowns that are, or are not, in the matrix by central differences with a suitable step, one-sided
@@ -102,9 +107,7 @@ static Status differ(Instance *instance, const double *seeds, int which, const R
             for (size_t i = 0; i < extent(instance, unknowns[k]); i++, to++) {
                 if (!(which & (row_of(instance, unknowns[k] + (uint64_t)i) < 0 ? NOT_IN_MATRIX : IN_MATRIX))) continue;
                 *to = side ? (*to - found[i]) / (up - down) : found[i];
-                if (side && !isfinite(*to))
-                    return report(instance, LOG_DISCARD, "%s has no finite derivative here",
-                                  TEXT(instance->table.variables[unknowns[k]].name));
+                if (side && !isfinite(*to)) return not_finite(instance, unknowns[k]);
             }
         }
     }
@@ -149,6 +152,7 @@ static Status along(Instance *instance, const Reference unknowns[], size_t n, si
             for (size_t c = 0; row >= 0 && c < columns; c++)
                 if (!isnan(instance->slopes[c]))
                     *result += instance->slopes[(size_t)row * columns + c] * seeds[instance->table.derived_by[c]];
+            if (!isfinite(*result)) return not_finite(instance, unknowns[k]);
         }
     return OK;
 }
@@ -169,7 +173,7 @@ static Status begin(Instance *instance, const char *function, const Reference un
     return status;
 }
 
-static Status not_finite(const Instance *instance) { return report(instance, LOG_ERROR, "a seed of a derivative is not finite"); }
+static Status no_seed(const Instance *instance) { return report(instance, LOG_ERROR, "a seed of a derivative is not finite"); }
 
 /* Fill the product of the derivatives with seeds of the knowns. */
 Status derivative(Instance *instance, const char *function, const Reference unknowns[], size_t n_unknowns,
@@ -181,7 +185,7 @@ Status derivative(Instance *instance, const char *function, const Reference unkn
     memset(instance->before, 0, N(values) * sizeof(double));
     for (size_t k = 0; k < n_knowns; k++)
         for (size_t i = 0; i < extent(instance, knowns[k]); i++, seed++) {
-            if (!isfinite(*seed)) return not_finite(instance);
+            if (!isfinite(*seed)) return no_seed(instance);
             /* OMSimulator names every dependency of an unknown, enumerations too, with seeds of 0. */
             if (*seed != 0.0 && !(instance->table.variables[knowns[k]].kind & REAL))
                 return report(instance, LOG_ERROR, "%s is not a variable for %s now, unless its seed is 0",
@@ -201,7 +205,7 @@ Status adjoint(Instance *instance, const char *function, const Reference unknown
     Status status = begin(instance, function, unknowns, n_unknowns, n_seed, knowns, n_knowns, n_result);
     if (status != OK) return status;
     for (size_t i = 0; i < n_seed; i++)
-        if (!isfinite(seed[i])) return not_finite(instance);
+        if (!isfinite(seed[i])) return no_seed(instance);
     column = malloc((n_seed + 1) * sizeof *column);
     if (!column) return report(instance, LOG_ERROR, "out of memory");
     for (size_t k = 0; k < n_knowns && status <= WARNING; k++)
@@ -212,6 +216,7 @@ Status adjoint(Instance *instance, const char *function, const Reference unknown
             instance->before[knowns[k] + i] = 1.0;
             status = along(instance, unknowns, n_unknowns, n_seed, column);
             for (size_t j = 0; j < n_seed; j++) *result += seed[j] * column[j];
+            if (!isfinite(*result)) status = not_finite(instance, knowns[k]);
         }
     free(column);
     return status;
