@@ -43,7 +43,8 @@ def test_directional_derivatives_are_those_of_the_solver(open_native, scale):
     for unknown, known in DERIVATIVES:
         (slope,), at = derivative(fmu, [unknown], {known: 1.0}), fmu[known]
         (wanted,) = quotient(fmu, [unknown], {known: 1.0}, 3e-10 if known == "geometry.g[23]" else 3e-6 * abs(at))
-        bound = 1e-4 * max(abs(wanted), 1e-3 * abs(fmu[unknown] / at))
+        share = 4e-4 if known == "load.normal_force" else 1e-4  # the tangent of the solution, whose own tolerance is 1e-4
+        bound = share * max(abs(wanted), 1e-3 * abs(fmu[unknown] / at))
         assert slope == pytest.approx(wanted, abs=bound), (unknown, known)
 
 
@@ -76,7 +77,10 @@ def directions(case: Case) -> dict[str, tuple[dict[str, float], float]]:
 
 
 def test_forces_of_random_contacts(open_native):
-    """For all continuous methods they agree to 1e-4 of the slope of force and moment where these are smooth."""
+    """For all continuous methods they agree to 1e-4 of the slope of force and moment where these are smooth.
+
+    By load or approach, which follow the tangent of the solution, they agree to 1e-3.
+    """
     fmu, tally, unknowns = open_native("ModelExchange"), Tally(), ("force.x", "force.y", "moment.z")
     continuous = [method.continuous for method in METHODS.normal.values()]
     for case in map(random_case, range(100)):
@@ -91,7 +95,7 @@ def test_forces_of_random_contacts(open_native):
             quotients = [quotient(fmu, unknowns, direction, share * great) for share in (3e-6, 0.7e-6)]
             force = s.friction * s.N / great
             least = 1e-3 * np.array([force, force, np.sqrt(s.area / np.pi) * force])
-            scale = np.maximum(parts([(0, 1), (2,)], quotients[0]), least)
+            scale = np.maximum(parts([(0, 1), (2,)], quotients[0]), least) * (10.0 if name.startswith("load") else 1.0)
             tally.add((case.seed, name), derivative(fmu, unknowns, direction), quotients, scale)
     print(f"{tally.smooth} smooth, {len(tally.rough)} not")
     assert not tally.wrong
