@@ -51,18 +51,37 @@ of FMI 2.0. Ecos finds an array by its name, asks for a single number too, and s
 | --- | --- |
 | OMSimulator | the package on PyPI fetches its program from another server |
 | OpenModelica, OMPython | Debian has no `omc`, which OMPython calls |
-| pyfmi | needs Assimulo, which does not build from PyPI without SUNDIALS |
+| pyfmi | the source on PyPI, of 2018, does not build; it also needs Assimulo |
 | Chrono | the package pychrono on PyPI is another program, a scheduler |
-| FMI4j, and every Java host | Maven's repository cannot be reached |
-| Rust (fmi-rs), Julia (FMI.jl) | crates and Julia's packages cannot be reached; Debian has no Julia |
-| Scilab, Octave | Debian's Scilab has no FMI toolbox, Octave has none |
+| FMI4j | Maven's repository cannot be reached |
+| Rust (fmi-rs), Julia (FMI.jl) | their registries cannot be reached; Debian has no Julia |
+| Scilab | Debian's has no FMI toolbox |
 | npm | nothing that loads a binary FMU |
-| gemseo-fmu, ovfmi, FMUGym, mosaik-fmi, exudyn | load FMUs by fmpy, so they show what fmpy shows; exudyn was run ([exudyn](exudyn.md)) |
+| gemseo-fmu, ovfmi, FMUGym, exudyn | load FMUs by fmpy and show what it shows; exudyn was run ([exudyn](exudyn.md)) |
+| mosaik-fmi | needs fmipp, which needs swig to build |
 | uniFMU, PythonFMU3 | make FMUs, load none |
 | vdmcheck, fmusim | no package |
 
 Events and intermediate values of co-simulation in FMI 3.0 are not offered (`hasEventMode`, `providesIntermediateUpdate`): nothing
-happens within a step, and inputs may change between any two. A host that asks for them at the instantiation gets an error that says so.
+happens within a step, and inputs may change between any two. A host that asks for them at the instantiation gets an error that
+says so.
+
+## What a host should not do
+
+Every class has tests. Of those with an asterisk a part runs every time, and all of it in `make soak`.
+
+| class | tests in `tests/system` |
+| --- | --- |
+| null pointers, forged states | `test_native_host.py`: `no_wrong_call_ends_the_host`\\* |
+| value references, order | `every_state_meets_every_function`, `any_function_in_any_order`, `random_calls_of_fmi_3` |
+| values | `test_native_fmu.py`: `a_bad_input_is_discarded`, `extreme_values`; `test_native_traps.py` |
+| states | `a_restored_or_serialised_state`, `damaged_bytes_are_no_state` |
+| steps | `an_invalid_step_is_an_error`, `a_step_is_not_done_twice`; `test_native_discard.py` |
+| allocations, small stacks, fork, reload | `test_native_host.py`: `hard_circumstances_end_no_host`\\* |
+| threads | `on_linux` and `fmi_3` with `threads` |
+| resources | `test_native_table.py`, `test_native_uris.py`, `tests/test_damaged_files.py`\\* |
+| memory over time | `cycles_and_steps_leave_memory_as_it_was`\\* |
+| undefined behaviour | `sanitizers_find_nothing`\\*, `valgrind_finds_nothing` |
 """
 
 
