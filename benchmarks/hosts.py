@@ -41,9 +41,9 @@ REASONS = {
     r"== FMI_2|Allocating FMIL context": "no FMI 3",
 }
 FOOT = """
-"Same" is every digit. Where a host makes more than one step, the later ones start from the last solution of the strips and agree
-within its tolerance. CasADi and PathSim take one number for each variable of FMI 3.0, so they read no arrays; give them the files
-of FMI 2.0. Ecos finds an array by its name, asks for a single number too, and shows 0 when it is refused.
+"Same" is every digit. Where a host makes more than one step, the later ones start from the last solution of the strips and
+agree within its tolerance. CasADi and PathSim take one number for each variable of FMI 3.0, so they read no arrays; give them
+the files of FMI 2.0. Ecos finds an array by its name, asks for a single number too, and shows 0 when it is refused.
 
 ## Not to be had
 
@@ -62,9 +62,9 @@ of FMI 2.0. Ecos finds an array by its name, asks for a single number too, and s
 | uniFMU, PythonFMU3 | make FMUs, load none |
 | vdmcheck, fmusim | no package |
 
-Events and intermediate values of co-simulation in FMI 3.0 are not offered (`hasEventMode`, `providesIntermediateUpdate`): nothing
-happens within a step, and inputs may change between any two. A host that asks for them at the instantiation gets an error that
-says so.
+Events and intermediate values of co-simulation in FMI 3.0 are not offered (`hasEventMode`, `providesIntermediateUpdate`):
+nothing happens within a step, and inputs may change between any two. A host that asks for them at the instantiation gets an
+error that says so.
 
 ## What a host should not do
 
@@ -139,8 +139,8 @@ def main() -> None:
     cases = "; ".join(f"`{name}`: {wanted} at {given} = {value:g}" for name, (given, value, wanted) in CASES.items())
     head = f"""# Hosts
 
-Native FMUs of both versions of FMI, with the number that a host reads and the digits in which it differs from fmpy ({cases}).
-`python -m benchmarks.hosts dist/native` writes this page; the runs are the scripts of `examples/hosts`, which the tests run too.
+Native FMUs of both versions of FMI: the difference of the number that a host reads from that of fmpy ({cases}).
+`python -m benchmarks.hosts dist/native` writes this page from runs of the scripts of `examples/hosts`, which are tests too.
 """
     text = "\n".join([head, *table(arguments.folder), FOOT])
     print(text)

@@ -169,7 +169,10 @@ def _set_friction(case, result, jacobian):
 
 @kernel
 def roll_creepages(sep, n, cases, own, results, jacobian):
-    """Write the results with each creepage moved into its column, on the same `n` strips. `subtract_creepages` completes them."""
+    """Write the results with each creepage moved into its column, on the same `n` strips.
+
+    `subtract_creepages` makes derivatives of them.
+    """
     if fits_together(n, cases[0], results[0], own.strips):
         creepage, spin = creepage_step(cases[0], results[0])
         roll_together(n, creepage, spin, cases[0], own)
@@ -202,7 +205,7 @@ def subtract_creepages(cases, results, jacobian):
 
 @kernel
 def derive_solved(sep, n, cases, own, results, jacobian):
-    """Fill the jacobian, shape (6, 5), of ``cases[0]``, whose normal problem is solved with `n` strips. Return the strip count.
+    """Fill the jacobian, shape (6, 5), of ``cases[0]``, whose normal problem is solved. Return the strip count, before `n`.
 
     If it has no tangent, it is solved again with a small tolerance, and of the solution before only the approach counts.
     """

@@ -325,7 +325,8 @@ def derive(bench, is_there, by_load, aside):
     """Fill `aside.jacobian` at the pose `aside.given` of the rigid wheelset and rail. Return the number of patches.
 
     `by_load` says that z will follow a load. Then it follows about already, as the row HEIGHT says: at one height the wheel
-    would sink or lift by far more than it does, and the difference of two large changes would remain. `bench` holds the last solution, which is the start. If it `is_there`, it is the solution of this pose itself.
+    would sink or lift by far more than it does, and the difference of two large changes would remain. `bench` holds the last
+    solution, which is the start. If it `is_there`, it is the solution of this pose itself.
     """
     near = aside.bench
     jacobian, mirror = aside.jacobian, bench.search.motion[0].mirror

@@ -187,7 +187,12 @@ def differ(table: Table) -> Callable[..., Any]:
         the same error on both sides.
         """
         speed = max(v[at.velocity_x], SLOWEST)
-        mu, N, G, area = v[at.friction_coefficient], abs(v[at.force_z]), v[at.material_shear_modulus], v[at.patches_area]
+        mu, N, G, area = (
+            v[at.friction_coefficient],
+            abs(v[at.force_z]),
+            v[at.material_shear_modulus],
+            v[at.patches_area],
+        )
         creepage = _steps(mu, N, G, area)[0]
         if reference == at.pose_z or reference == at.irregularity_z or reference == at.offset_z:
             return 1e-8

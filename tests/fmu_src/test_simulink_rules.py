@@ -12,10 +12,10 @@ from models.wheelset.ports import POINTS
 from reference.native import SCENARIO
 
 #: Words that cannot name an element of a bus in MATLAB, and the longest name.
-KEYWORDS = set(
-    "break case catch classdef continue else elseif end for function global if otherwise parfor persistent return spmd "
-    "switch try while".split()
-)
+KEYWORDS = {
+    *("break", "case", "catch", "classdef", "continue", "else", "elseif", "end", "for", "function", "global", "if"),
+    *("otherwise", "parfor", "persistent", "return", "spmd", "switch", "try", "while"),
+}
 LONGEST = 63
 
 

@@ -139,7 +139,9 @@ def test_the_page_of_hosts_names_scripts_and_tests_that_exist():
     """docs/use/fmu/hosts.md lists the tests of every class of wrong calls."""
     tests = Path(__file__).parent
     page = (tests.parents[1] / "docs" / "use" / "fmu" / "hosts.md").read_text(encoding="utf-8")
-    defined = "".join(path.read_text(encoding="utf-8") for path in (*tests.glob("test_*.py"), *tests.parent.glob("test_*.py")))
+    defined = "".join(
+        path.read_text(encoding="utf-8") for path in (*tests.glob("test_*.py"), *tests.parent.glob("test_*.py"))
+    )
     named = re.findall(r"`([\w/.]+)`", page[page.index("| class |") :])
     assert len(named) > 15
     for name in named:

@@ -9,7 +9,16 @@ CREEPAGES = {"creepage.longitudinal": 1e-3, "creepage.lateral": -5e-4, "creepage
 CONTACT = ("force.x", "force.y", "moment.z", "force.n", "approach", "power.friction")
 BY = (*CREEPAGES, "load.normal_force", "friction.coefficient")
 WRENCH = ("force.x", "force.y", "force.z", "moment.x", "moment.y", "moment.z", "wheelset.z")
-MOTION = ("pose.y", "pose.roll", "pose.yaw", "velocity.y", "velocity.yaw", "velocity.spin", "irregularity.y", "load.normal_force")
+MOTION = (
+    "pose.y",
+    "pose.roll",
+    "pose.yaw",
+    "velocity.y",
+    "velocity.yaw",
+    "velocity.spin",
+    "irregularity.y",
+    "load.normal_force",
+)
 
 
 def references(fmu, *groups):
@@ -21,7 +30,9 @@ def size(fmu, names):
 
 
 def directional(fmu, unknowns, knowns, u) -> np.ndarray:
-    found = fmu.fmu.getDirectionalDerivative(*references(fmu, unknowns, knowns), list(u), nSensitivity=size(fmu, unknowns))
+    found = fmu.fmu.getDirectionalDerivative(
+        *references(fmu, unknowns, knowns), list(u), nSensitivity=size(fmu, unknowns)
+    )
     return np.array(found)
 
 

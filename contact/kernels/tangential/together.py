@@ -23,7 +23,7 @@ COPIES = 3
 
 @kernel
 def fits_together(n, case, result, strips):
-    """Return whether `n` strips can march with their copies: one plane patch of mapped strips, friction and stiffness constant."""
+    """Return whether `n` strips can march with their copies: one plane patch of mapped strips with constant friction."""
     constant = case.law == FrictionLaw.COULOMB and not case.drop > 0.0 and case.slope == 1.0 and case.slope_far == 1.0
     plain = constant and case.conformal == 0 and result.limited == 0
     mapped = case.tangential_family == TangentialFamily.FASTRIP_MAPPED
