@@ -17,7 +17,7 @@ from contact.kernels.enumerations import FrictionLaw, LoadKind, NormalFamily
 from contact.kernels.normal.tangent import follow, linearise
 from contact.kernels.pipeline import press_case, roll_case
 from contact.kernels.result import clear_forces
-from contact.kernels.tangential.together import COPIES, fits_together, roll_together, sum_copy
+from contact.kernels.together import COPIES, fits_together, roll_together, sum_copy
 
 #: Rows and columns.
 ROWS, COLUMNS = 6, 5

@@ -36,7 +36,7 @@ from contact.kernels.pipeline import press_case, roll_case
 from contact.kernels.records import MAX_PATCHES, SLOWEST
 from contact.kernels.result import clear, clear_forces
 from contact.kernels.rows import Moved, Sep
-from contact.kernels.tangential.together import COPIES, fits_together, roll_together, sum_copy
+from contact.kernels.together import COPIES, fits_together, roll_together, sum_copy
 
 #: What the forces of a patch are derived by: three creepages, the coefficient of friction, the speed of a friction law.
 MU, SPEED = 3, 4
