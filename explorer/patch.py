@@ -37,7 +37,7 @@ def entries() -> dict[str, Callable[..., Any]]:
 
     def model_field(values, work, k, given):
         v = carray(values, (n_values,))
-        bench = arrange(v, work, given)
+        bench, _, _ = arrange(v, work, given)
         own, n = bench.own, solve_patch(k, v[kind] != _BY_HEIGHT, bench)
         m = int(v[elements])
         by_strip = carray(ahead(values, n_values), (len(STRIPS), n))

@@ -57,8 +57,8 @@ _CONTACT_EXAMPLES = (
     ),
 )
 _STIFFNESS = (
-    "Reading creep_stiffness takes about three steps more in a native FMU, seven for hosts with Python. Record it only where "
-    "it is needed."
+    "Reading creep_stiffness takes about one step more in a native FMU, four for hosts with Python. Record it only where it is "
+    "needed."
 )
 _PAIR_DEFAULTS = (
     "The start values are a right wheel of a centred wheelset at 20 m/s under 80 kN. The height of the wheelset is found so "

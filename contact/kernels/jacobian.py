@@ -16,6 +16,8 @@ from contact.kernels.arrays import Cases, Matrix, Results, Samples, Workspace
 from contact.kernels.enumerations import FrictionLaw, LoadKind, NormalFamily
 from contact.kernels.normal.tangent import follow, linearise
 from contact.kernels.pipeline import press_case, roll_case
+from contact.kernels.result import clear_forces
+from contact.kernels.together import COPIES, fits_together, roll_together, sum_copy
 
 #: Rows and columns.
 ROWS, COLUMNS = 6, 5
@@ -74,6 +76,7 @@ def roll_moved(sep, n, j, step, cases, own, results):
     """
     cases[1], results[1] = cases[0], results[0]
     move(cases[1], j, step)
+    clear_forces(results[1])
     roll_case(sep, n, cases[1], own, results[1])
 
 
@@ -164,24 +167,53 @@ def _set_friction(case, result, jacobian):
         jacobian[i, MU] = (value - along) / case.mu if i < 3 or i == POWER else 0.0
 
 
-@entry
-def solve_with_jacobian(sep: Samples, cases: Cases, own: Workspace, results: Results, jacobian: Matrix) -> int:
-    """Solve ``cases[0]`` into ``results[0]``, and fill the jacobian, shape (6, 5). Return the strip count.
+@kernel
+def roll_creepages(sep, n, cases, own, results, jacobian):
+    """Write the results with each creepage moved into its column, on the same `n` strips.
 
-    ``cases[1]`` and ``results[1]`` are scratch. Without contact all derivatives are zero. If there is a tangent, the answer is
-    that of `solve_case`. Otherwise it is iterated further; the two agree within the tolerance of the method.
+    `subtract_creepages` makes derivatives of them.
+    """
+    if fits_together(n, cases[0], results[0], own.strips):
+        creepage, spin = creepage_step(cases[0], results[0])
+        roll_together(n, creepage, spin, cases[0], own)
+        for j in range(COPIES):
+            jacobian[0, j], jacobian[1, j], jacobian[2, j], jacobian[5, j] = sum_copy(n, j, own.strips)
+            jacobian[3, j], jacobian[4, j] = results[0].N, results[0].approach
+        return
+    for j in range(COPIES):
+        roll_moved(sep, n, j, _step(j, cases[0], 0.0, results[0]), cases, own, results)
+        _store(results[1], j, jacobian)
+
+
+@kernel
+def _subtract_moved(j, amount, cases, results, jacobian):
+    """Make column j derivatives; `amount` is the step of the load or approach."""
+    cases[1] = cases[0]
+    step = move(cases[1], j, _step(j, cases[0], amount, results[0]))
+    if step > 0.0:
+        _subtract(results[0], j, step, jacobian)
+    else:
+        jacobian[:, j] = 0.0
+
+
+@kernel
+def subtract_creepages(cases, results, jacobian):
+    """Make the columns that `roll_creepages` has written derivatives at ``results[0]``."""
+    for j in range(COPIES):
+        _subtract_moved(j, 0.0, cases, results, jacobian)
+
+
+@kernel
+def derive_solved(sep, n, cases, own, results, jacobian):
+    """Fill the jacobian, shape (6, 5), of ``cases[0]``, whose normal problem is solved. Return the strip count, before `n`.
+
+    If it has no tangent, it is solved again with a small tolerance, and of the solution before only the approach counts.
     """
     jacobian[:, :] = 0.0
+    clear_forces(results[0])
     by_load = cases[0].load_kind != LoadKind.APPROACH
-    n, over, linear = 1, cases[0].amount, False
-    iterates = cases[0].normal_family == NormalFamily.STRIP_HALFSPACE
-    if iterates or not by_load:
-        n = press_case(sep, cases[0], own, results[0])
-        over = results[0].approach - results[0].touch
-        linear = n > 0 and has_tangent(sep, cases[0], own, results[0])
-    if n == 0:
-        return 0
-    if linear:
+    over = results[0].approach - results[0].touch
+    if has_tangent(sep, cases[0], own, results[0]):
         _follow(sep, n, _LOAD_STEP * max(over, 0.0), cases, own, results, jacobian)
         amount = jacobian[3, AMOUNT] - results[0].N if by_load else jacobian[4, AMOUNT] - results[0].approach
     else:
@@ -195,18 +227,29 @@ def solve_with_jacobian(sep: Samples, cases: Cases, own: Workspace, results: Res
         jacobian[:, :] = 0.0
         return 0
     even = is_even(cases[0]) and cases[0].mu > 0.0
-    for j in range(COLUMNS):
-        if j != AMOUNT and not (j == MU and even):
-            roll_moved(sep, n, j, _step(j, cases[0], amount, results[0]), cases, own, results)
-            _store(results[1], j, jacobian)
+    roll_creepages(sep, n, cases, own, results, jacobian)
+    if not even:
+        roll_moved(sep, n, MU, _step(MU, cases[0], amount, results[0]), cases, own, results)
+        _store(results[1], MU, jacobian)
     roll_case(sep, n, cases[0], own, results[0])
     for j in range(MU if even else COLUMNS):
-        cases[1] = cases[0]
-        step = move(cases[1], j, _step(j, cases[0], amount, results[0]))
-        if step > 0.0:
-            _subtract(results[0], j, step, jacobian)
-        else:
-            jacobian[:, j] = 0.0
+        _subtract_moved(j, amount, cases, results, jacobian)
     if even:
         _set_friction(cases[0], results[0], jacobian)
     return n
+
+
+@entry
+def solve_with_jacobian(sep: Samples, cases: Cases, own: Workspace, results: Results, jacobian: Matrix) -> int:
+    """Solve ``cases[0]`` into ``results[0]``, and fill the jacobian, shape (6, 5). Return the strip count.
+
+    ``cases[1]`` and ``results[1]`` are scratch. Without contact all derivatives are zero. If there is a tangent, the answer is
+    that of `solve_case`. Otherwise it is iterated further; the two agree within the tolerance of the method.
+    """
+    n = 1
+    if cases[0].normal_family == NormalFamily.STRIP_HALFSPACE or cases[0].load_kind == LoadKind.APPROACH:
+        n = press_case(sep, cases[0], own, results[0])  # else `derive_solved` needs no solution
+    if n == 0:
+        jacobian[:, :] = 0.0
+        return 0
+    return derive_solved(sep, n, cases, own, results, jacobian)

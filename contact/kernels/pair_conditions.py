@@ -171,7 +171,8 @@ def derive_pair(mode, given, bench, aside):
     numbers[Moved.RAIL_Y] += rail.dy
     numbers[Moved.RAIL_Z] += rail.dz
     rigid = rail.ky <= 0.0 and rail.kz <= 0.0
-    n = derive(bench, mode == Height.GIVEN and rigid, aside)
+    by_load = mode == Height.LOAD or mode == Height.VERTICAL
+    n = derive(bench, mode == Height.GIVEN and rigid, by_load, aside)
     jacobian = aside.jacobian
     if n > 0:
         if mode == Height.LOAD:

@@ -8,7 +8,7 @@
 * **Rail.** Wheelset and rail displaced together have the same forces. So the columns of the rail's displacement and of its
   velocity are minus those of the wheelset.
 
-All this is at one height. `pair_conditions` lets height and deflections follow their conditions.
+All this is at one height, or near that of a given load. `pair_conditions` lets height and deflections follow their conditions.
 """
 
 import math
@@ -36,6 +36,7 @@ from contact.kernels.pipeline import press_case, roll_case
 from contact.kernels.records import MAX_PATCHES, SLOWEST
 from contact.kernels.result import clear, clear_forces
 from contact.kernels.rows import Moved, Sep
+from contact.kernels.together import COPIES, fits_together, roll_together, sum_copy
 
 #: What the forces of a patch are derived by: three creepages, the coefficient of friction, the speed of a friction law.
 MU, SPEED = 3, 4
@@ -151,6 +152,10 @@ def _roll_moved(k, samples, n, own, aside):
     patch, contact = bench.search.patches[k], bench.contacts[k]
     bench.case[1], bench.result[1] = bench.patch_case[0], bench.result[0]
     case, result, middle = bench.case[1], bench.result[1], bench.result[0]
+    together = fits_together(n, case, middle, own.strips)
+    if together:
+        creepage, spin = creepage_step(case, middle)
+        roll_together(n, creepage, spin, case, own)
     for c in range(CREEPS):
         even = is_even(case) and case.mu > 0.0
         if c == SPEED and case.law == FrictionLaw.COULOMB and not case.drop > 0.0:
@@ -167,7 +172,10 @@ def _roll_moved(k, samples, n, own, aside):
         bench.case[1] = bench.patch_case[0]
         step = _step_of(c, case, middle)
         clear_forces(result)
-        roll_case(samples, n, case, own, result)
+        if together and c < COPIES:
+            result.Fx, result.Fy, result.Mz, result.power = sum_copy(n, c, own.strips)
+        else:
+            roll_case(samples, n, case, own, result)
         scale, Fx, Fy = patch.share / step if step > 0.0 else 0.0, result.Fx - middle.Fx, result.Fy - middle.Fy
         _add_tangential(scale, Fx, Fy, result.Mz - middle.Mz, contact, bench, aside.by_creep[k, c])
 
@@ -244,21 +252,41 @@ def _pose_step(j, approach, steepest, motion):
 
 
 @kernel
-def _derive_by_pose(j, width, n, aside):
+def _rise(j, n, mirror, aside):
+    """Return the change of z per step of column j at which the wheel lies about as deep in the rail, at its deepest patch."""
+    deepest, motion = 0, aside.bench.search.motion[0]
+    for k in range(n):
+        deepest = k if aside.patches[k].approach > aside.patches[deepest].approach else deepest
+    patch = aside.patches[deepest]
+    slope = math.tan(patch.angle)
+    if j == Moved.Y:
+        return mirror * slope
+    if j == Moved.ROLL:
+        return -mirror * (patch.point_y - motion.y + slope * (patch.point_z - motion.z + motion.radius))
+    if j == Moved.RAIL_ROLL:
+        return mirror * (patch.y - motion.rail_y + slope * (patch.z - motion.rail_z))
+    return 0.0
+
+
+@kernel
+def _derive_by_pose(j, width, rise, n, aside):
     """Fill column j of the jacobian with forces over the step `width`, or over minus it where patches come or go otherwise.
 
-    `aside.sides[j]` then is -1, and 2 where they come or go on both sides. The forces of patches that do so count.
+    `aside.sides[j]` then is -1, and 2 where they come or go on both sides. The forces of patches that do so count. Along the
+    step z changes by `rise` times it.
     """
     numbers, patches, creeps = aside.numbers, aside.bench.search.patches, aside.creeps
-    before, step, found = numbers[j], width, n
+    before, height, step, found = numbers[j], numbers[Moved.Z], width, n
     for attempt in range(3):
         numbers[j] = before + (-width if attempt == 1 else width)
         step = numbers[j] - before
+        if j != Moved.Z:
+            numbers[Moved.Z] = height + rise * step
         found = _locate(aside)
         if found == n or attempt == 2:
             aside.sides[j] = 2.0 if found != n else -1.0 * attempt
             break
-    numbers[j] = before
+    numbers[j], numbers[Moved.Z] = before, height
     if found < 0 or step == 0.0:
         return
     for k in range(n if found == n else 0):
@@ -268,6 +296,7 @@ def _derive_by_pose(j, width, n, aside):
     _solve_neighbour(found, found == n, aside)
     for i in range(ROWS):
         aside.jacobian[i, j] = (aside.forces[i] - aside.middle[i]) / step
+    aside.jacobian[HEIGHT, j] = rise
 
 
 @kernel
@@ -292,10 +321,12 @@ def _derive_by_velocity(j, n, aside):
 
 
 @kernel
-def derive(bench, is_there, aside):
+def derive(bench, is_there, by_load, aside):
     """Fill `aside.jacobian` at the pose `aside.given` of the rigid wheelset and rail. Return the number of patches.
 
-    `bench` holds the last solution, which is the start. If it `is_there`, it is the solution of this pose itself.
+    `by_load` says that z will follow a load. Then it follows about already, as the row HEIGHT says: at one height the wheel
+    would sink or lift by far more than it does, and the difference of two large changes would remain. `bench` holds the last
+    solution, which is the start. If it `is_there`, it is the solution of this pose itself.
     """
     near = aside.bench
     jacobian, mirror = aside.jacobian, bench.search.motion[0].mirror
@@ -326,7 +357,8 @@ def derive(bench, is_there, aside):
             _derive_by_velocity(j, n, aside)
     for j in range(Moved.RAIL_ROLL + 1):
         if j <= Moved.YAW or j == Moved.RAIL_ROLL:
-            _derive_by_pose(j, _pose_step(j, approach, steepest, near.search.motion[0]), n, aside)
+            rise = _rise(j, n, mirror, aside) if by_load else 0.0
+            _derive_by_pose(j, _pose_step(j, approach, steepest, near.search.motion[0]), rise, n, aside)
     for j in range(Moved.AMOUNT):
         for k in range(n):
             for c in range(CREEPS):

@@ -66,6 +66,8 @@ class Component:
         The kernels get the content of all files in sequence. For each file: the number of points n, then n values of each row.
     lazy : tuple of str
         Rows that are computed only when a host reads them.
+    derived, derived_by : tuple of str
+        Outputs and inputs of the matrix of ``model_jacobian``.
     totals : mapping
         Outputs that the wrapper integrates over time: name → one or two values whose product is the rate.
     accumulated : tuple of str
@@ -86,6 +88,8 @@ class Component:
     own: NDArray[np.int64] = field(default_factory=lambda: np.zeros(0, np.int64))
     resources: tuple[Resource, ...] = ()
     lazy: tuple[str, ...] = ()
+    derived: tuple[str, ...] = ()
+    derived_by: tuple[str, ...] = ()
     totals: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
     accumulated: tuple[str, ...] = ()
     accumulates: str = ""

@@ -26,6 +26,19 @@ TOTALS = {
     "total.distance": ("velocity.x",),
     "total.T_gamma": ("damage.T_gamma", "velocity.x"),
 }
+#: Rows and columns of the derivatives that kernels know (`Component.derived`): those of `contact.kernels.jacobian`, and those
+#: of a pair, which are the members of `contact.kernels.rows.Moved`.
+CONTACT_DERIVED = (
+    ("force.x", "force.y", "moment.z", "force.n", "approach", "power.friction"),
+    (
+        *(f"creepage.{name}" for name in ("longitudinal", "lateral", "spin")),
+        *("load.normal_force", "load.approach", "friction.coefficient"),
+    ),
+)
+PAIR_DERIVED = (
+    (*(f"{kind}.{axis}" for kind in ("force", "moment") for axis in "xyz"), "wheelset.z"),
+    (*(name for name, _, _ in wheel_rail_pair.MOTION), "load.normal_force", "friction.coefficient"),
+)
 
 
 class Failure(IntEnum):
@@ -83,6 +96,8 @@ def contact(points: int, elliptic: bool = False) -> Component:
         table=table,
         own=numbers(table, points=points),
         lazy=("creep_stiffness",),
+        derived=CONTACT_DERIVED[0],
+        derived_by=CONTACT_DERIVED[1],
         totals={"total.energy": ("power.friction",), "total.worn_volume": ("damage.archard_volume", "speed")},
         warnings=WARNINGS,
     )
@@ -92,6 +107,8 @@ def pair(inclination: float, accumulation: bool = False) -> Component:
     """Return the FMU. `inclination` is the default of `rail.inclination` (tangent); `accumulation` shows the bins."""
     return Component(
         kind="pair",
+        derived=PAIR_DERIVED[0],
+        derived_by=PAIR_DERIVED[1],
         table=wheel_rail_pair.table(inclination, accumulation),
         resources=_PROFILES,
         totals=TOTALS,
@@ -108,6 +125,8 @@ def surface_pair() -> Component:
     wrong = "its slices are not in order, or its numbers do not belong together"
     return Component(
         kind="surfaces",
+        derived=PAIR_DERIVED[0],
+        derived_by=PAIR_DERIVED[1],
         table=of.table(),
         resources=(
             Resource(of.WHEEL, surfaces.MAGIC["wheel"], 1, of.MOST_NUMBERS),

@@ -13,6 +13,9 @@ begins with the warm start. The last argument is `component.Given`.
   computes them only from the inputs and states in `values`.
 * ``model_lazy(values, work, given)`` computes the rows `lazy` from the solution that ``model_outputs`` has left in `work`. A
   model without such rows does not need it.
+* ``model_jacobian(values, work, given)`` derives the rows `derived` by the rows `derived_by` at the solution that
+  ``model_outputs`` has left in `work`, which it uses up. It returns where in `work` the matrix begins, one row of it after the
+  other. A column of NaN is not known here. A model without such rows does not need it.
 * ``model_difference(values, reference, given)`` returns a suitable step of one variable for difference quotients.
 * ``model_field(values, work, k, given)`` writes field number `k` of the last ``model_outputs`` into `work` and returns where
   it begins. A model without fields does not need it.
@@ -35,6 +38,7 @@ SIGNATURES: dict[str, tuple[str, tuple[str, ...]]] = {
     "start": ("i64", ("ptr", "ptr")),
     "outputs": ("i64", ("ptr", "ptr", "f64")),
     "lazy": ("i64", ("ptr", "ptr")),
+    "jacobian": ("i64", ("ptr", "ptr")),
     "difference": ("f64", ("ptr", "i64")),
     "field": ("i64", ("ptr", "ptr", "i64")),
 }
@@ -69,4 +73,4 @@ def _no_field(values: Any, work: Any, k: Any, given: Any) -> int:
 
 
 #: What stands for functions that a kind does not need.
-_UNNEEDED = {"start": _nothing, "lazy": _nothing, "field": _no_field}
+_UNNEEDED = {"start": _nothing, "lazy": _nothing, "jacobian": _nothing, "field": _no_field}

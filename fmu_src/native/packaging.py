@@ -42,6 +42,7 @@ _COMMON_3 = {
     "canGetAndSetFMUState": "true",
     "canSerializeFMUState": "true",
     "providesDirectionalDerivatives": "true",
+    "providesAdjointDerivatives": "true",
 }
 #: The same in FMI 3.0.
 INTERFACES_3 = {

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from typing import Any
 
@@ -13,8 +14,9 @@ from contact.damage import DamageParameters
 from contact.geometry.wheelset import TAPE_FROM_FLANGE_BACK
 from contact.kernels import block
 from contact.kernels.entries.layout import forget_forged
-from contact.kernels.enumerations import Height, NoAnswer
+from contact.kernels.enumerations import FrictionLaw, Height, NoAnswer
 from contact.kernels.flexible import solve_flexible
+from contact.kernels.pair_conditions import derive_pair
 from contact.kernels.records import (
     CASE,
     DAMAGE_PARAMETERS,
@@ -24,6 +26,7 @@ from contact.kernels.records import (
     TOTAL,
     WHEEL_OFFSET,
 )
+from contact.kernels.rows import Moved
 
 from ..differences import creepage_steps
 from ..tables.solver import DAMAGE_OUTPUTS
@@ -151,6 +154,26 @@ def reporter(table: Table) -> Callable[..., Any]:
     return report
 
 
+def deriver(table: Table) -> Callable[..., Any]:
+    """Return a compiled function that fills `derived` from the last solution of a bench (`components.PAIR_DERIVED`)."""
+    at = references(table)
+
+    @compiled
+    def derive(values, v, bench, aside, derived):
+        given, _ = block.records(values, at.pose_y, 1, GIVEN)
+        n = derive_pair(_HEIGHT[int(v[at.load_kind]) - 1], given[0], bench, aside)
+        for j in range(derived.shape[1]):
+            known = n > 0 and aside.sides[j] < 1.5  # else patches come and go
+            if j == Moved.AMOUNT:
+                known = known and v[at.load_normal_force] > 0.0
+            elif j == Moved.FRICTION:  # the jacobian scales a law of friction as a whole
+                known = known and bench.case[0].law == FrictionLaw.COULOMB
+            for i in range(derived.shape[0]):
+                derived[i, j] = aside.jacobian[i, j] if known else math.nan
+
+    return derive
+
+
 def differ(table: Table) -> Callable[..., Any]:
     """Return a compiled function that returns the step of a variable for difference quotients."""
     at = references(table)
@@ -165,9 +188,13 @@ def differ(table: Table) -> Callable[..., Any]:
         the same error on both sides.
         """
         speed = max(v[at.velocity_x], SLOWEST)
-        creepage = 1e-3 * _steps(
-            v[at.friction_coefficient], abs(v[at.force_z]), v[at.material_shear_modulus], v[at.patches_area]
-        )[0]  # fmt: skip
+        mu, N, G, area = (
+            v[at.friction_coefficient],
+            abs(v[at.force_z]),
+            v[at.material_shear_modulus],
+            v[at.patches_area],
+        )
+        creepage = _steps(mu, N, G, area)[0]
         if reference == at.pose_z or reference == at.irregularity_z or reference == at.offset_z:
             return 1e-8
         if at.pose_y <= reference <= at.pose_yaw or at.irregularity_y <= reference <= at.irregularity_roll:

@@ -63,6 +63,7 @@ class _Writer:
             ),
             *(struct.pack("<qq", self.at(row.name), self.at(row.twin_of)) for row in (*given, *shown)),
             *(struct.pack("<q8sqq", self.text(r.name), r.magic, r.rows, r.most) for r in component.resources),
+            *(struct.pack("<q", self.at(row)) for row in (*component.derived, *component.derived_by)),
             component.own.astype("<i8").tobytes(),
         ]
         names = (self.text(guid), self.text(table.name), self.text(component.kind))
@@ -71,6 +72,7 @@ class _Writer:
         counts = (
             len(table.scalars) - accumulated, accumulated, len(table.fields), parameters, len(table.states), last,
             len(component.totals), len(given), len(shown), len(component.resources),
+            len(component.derived), len(component.derived_by),
         )  # fmt: skip
         accumulates = self.at(component.accumulates) if accumulated else _NONE
         head = (*names, *counts, accumulates, *self.field(), component.own.size, len(texts))

@@ -5,6 +5,7 @@ The solver's own kernels do the work. This module converts values to their argum
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from enum import IntEnum, auto
 from typing import Any, NamedTuple
@@ -18,11 +19,19 @@ from contact.kernels import block, memory
 from contact.kernels.arrays import Samples, Workspace
 from contact.kernels.damage.assess import damage_kernel
 from contact.kernels.entries.layout import fill, forget_forged, lay_out
-from contact.kernels.enumerations import LoadKind
-from contact.kernels.jacobian import move
-from contact.kernels.pipeline import roll_case, solve_case
+from contact.kernels.enumerations import FrictionLaw, LoadKind
+from contact.kernels.jacobian import (
+    AMOUNT,
+    COLUMNS,
+    MU,
+    POWER,
+    ROWS,
+    derive_solved,
+    roll_creepages,
+    subtract_creepages,
+)
+from contact.kernels.pipeline import solve_case
 from contact.kernels.records import CASE, DAMAGE, DAMAGE_PARAMETERS, MAX_PATCHES, RESULT
-from contact.kernels.result import clear_forces
 from contact.kernels.rows import DamageField, Field, Strip
 from contact.kernels.separation import HERTZIAN_POINTS, fill_hertzian
 
@@ -109,19 +118,21 @@ class Arrays(NamedTuple):
 
     own: Workspace
     samples: Samples
-    case: Any
-    result: Any
+    case: Any  # and a scratch one
+    result: Any  # and a scratch one
     damage_parameters: Any
     damage_fields: Any
     damage: Any
     count: Any  # number of strips
     shown: Any  # one field as the host sees it
     row: Any  # a single row of fields, for forces alone
+    slopes: Any  # `contact.kernels.jacobian`
+    derived: Any  # what the host sees of it: `components.CONTACT_DERIVATIVES`
 
 
 @compiled
 def _lay(work, size, kept, data):
-    """Lay out all arrays in `work`. Return them, the index of the field shown to the host, and the total size in numbers."""
+    """Lay out all arrays in `work`. Return them, the indices of `shown` and `derived`, and the total size in numbers."""
     own, _, end = lay_out(work, kept.size, kept, size, data)
     n, capacity = size.n_samples, MAX_PATCHES * size.n_strips
     y, end = block.vector(work, end, n)
@@ -129,16 +140,19 @@ def _lay(work, size, kept, data):
     A, end = block.vector(work, end, n)
     x_c, end = block.vector(work, end, n)
     tilt, end = block.vector(work, end, n)
-    case, end = block.records(work, end, 1, CASE)
-    result, end = block.records(work, end, 1, RESULT)
+    case, end = block.records(work, end, 2, CASE)
+    result, end = block.records(work, end, 2, RESULT)
     parameters, end = block.records(work, end, 1, DAMAGE_PARAMETERS)
     damage_fields, end = block.cube(work, end, len(DamageField), capacity, size.n_elements)
     damage, end = block.records(work, end, 1, DAMAGE)
     count, end = block.vector(work, end, 1)
     row, end = block.cube(work, end, len(Field), 1, size.n_elements)
-    shown, total = block.matrix(work, end, capacity, size.n_elements)
+    slopes, end = block.matrix(work, end, ROWS, COLUMNS)
+    derived, at_shown = block.matrix(work, end, ROWS, COLUMNS + 1)
+    shown, total = block.matrix(work, at_shown, capacity, size.n_elements)
     samples = Samples(y, g, A, x_c, tilt)
-    return Arrays(own, samples, case, result, parameters, damage_fields, damage, count, shown, row), end, total
+    a = Arrays(own, samples, case, result, parameters, damage_fields, damage, count, shown, row, slopes, derived)
+    return a, (at_shown, end), total
 
 
 @compiled
@@ -196,26 +210,21 @@ def _report(v, rows, a):
 
 
 @compiled
-def _creepages(v, at):
-    """Return the steps of the three creepages for difference quotients."""
-    return _steps(v[at.friction_coefficient], v[at.force_n], v[at.material_shear_modulus], v[at.patch_area])
-
-
-@compiled
 def _difference(v, at, reference):
     """Return a step so small that elements hardly ever change from stick to slip within it, where forces have kinks.
 
-    For a creepage it is a thousandth of the step of `creep_stiffness`, which is meant to average over the kinks. For the
+    For a creepage it is a millionth of the creepage at saturation. For the
     approach it is a millionth of the penetration. For the gap it is a millionth of the penetration or of the height above
     the least gap, whichever is greater: in a derivative along the whole geometry, samples outside the patch then leave
     those inside a step above round-off. For other variables it is a millionth of the value. Both sides of a difference
     are solved from a cold start, so that the tolerance of interacting strips, 1e-4, gives the same error on both sides.
     """
     if at.creepage_longitudinal <= reference <= at.creepage_spin:
-        longitudinal, lateral, spin = _creepages(v, at)
+        mu, N, G, area = v[at.friction_coefficient], v[at.force_n], v[at.material_shear_modulus], v[at.patch_area]
+        longitudinal, lateral, spin = _steps(mu, N, G, area)
         if reference == at.creepage_spin:
-            return 1e-3 * spin
-        return 1e-3 * (lateral if reference == at.creepage_lateral else longitudinal)
+            return spin
+        return lateral if reference == at.creepage_lateral else longitudinal
     stiffness = v[at.stiffness_normal]
     penetration = 1.5 * v[at.force_n] / stiffness if stiffness > 0.0 else 1e-6  # N ~ its ^3/2
     if reference == at.load_approach:
@@ -235,6 +244,15 @@ def _solve(n, a):
     """Solve the case of `a` with its first `n` samples."""
     forget_forged(a.own.space.memory)
     a.count[0] = solve_case(_first(a.samples, n), a.case, a.own, a.result)
+
+
+@compiled
+def _for_forces(a):
+    """Return the workspace without room for fields, which would take most of the time, unless the forces need them."""
+    own, case = a.own, a.case[0]
+    if case.conformal != 0 or case.pressure_limit > 0.0:
+        return own
+    return Workspace(own.rule, own.tables, own.space, own.strips, a.row)
 
 
 def entries() -> dict[str, Callable[..., Any]]:
@@ -284,22 +302,34 @@ def entries() -> dict[str, Callable[..., Any]]:
         v, rows = _values(values, given)
         at = rows[0]
         a, _, _ = arrange(v, at, work, given)
-        sep, case, result, own = _first(a.samples, _pose(v, rows, a)), a.case[0], a.result[0], a.own
-        if case.conformal == 0 and not case.pressure_limit > 0.0:  # fields would take most of the time
-            own = Workspace(own.rule, own.tables, own.space, own.strips, a.row)
-        for j, step in enumerate(_creepages(v, at)):
-            for i in range(3):
-                v[at.creep_stiffness + 3 * i + j] = 0.0
-            for sign in (1.0, -1.0):
-                move(case, j, sign * step)
-                clear_forces(result)
-                if a.count[0] > 0:
-                    roll_case(sep, int(a.count[0]), case, own, result)
-                for i, force in enumerate((result.Fx, result.Fy, result.Mz)):
-                    v[at.creep_stiffness + 3 * i + j] += sign * force / (2.0 * step)
-                case.vx, case.vy = v[at.creepage_longitudinal], v[at.creepage_lateral]
-                case.phi = v[at.creepage_spin]
+        sep, n = _first(a.samples, _pose(v, rows, a)), int(a.count[0])
+        a.slopes[:, :] = 0.0
+        if n > 0:
+            roll_creepages(sep, n, a.case, _for_forces(a), a.result, a.slopes)
+            subtract_creepages(a.case, a.result, a.slopes)
+        for i in range(3):
+            for j in range(3):
+                v[at.creep_stiffness + 3 * i + j] = a.slopes[i, j]
         return 0
+
+    def model_jacobian(values, work, given):
+        v, rows = _values(values, given)
+        at = rows[0]
+        a, (_, begin), _ = arrange(v, at, work, given)
+        sep, n, case = _first(a.samples, _pose(v, rows, a)), int(a.count[0]), a.case[0]
+        a.slopes[:, :] = 0.0
+        if n > 0:
+            n = derive_solved(sep, n, a.case, _for_forces(a), a.result, a.slopes)
+        by_load = case.load_kind == LoadKind.LOAD
+        for i in range(ROWS):
+            scale = v[at.speed] if i == POWER else 1.0
+            for j in range(AMOUNT):
+                a.derived[i, j] = scale * a.slopes[i, j]
+            amount = scale * a.slopes[i, AMOUNT] if n > 0 else math.nan  # contact may begin here
+            a.derived[i, AMOUNT], a.derived[i, AMOUNT + 1] = (amount, 0.0) if by_load else (0.0, amount)
+            # the jacobian scales a law of friction as a whole
+            a.derived[i, MU + 1] = scale * a.slopes[i, MU] if case.law == FrictionLaw.COULOMB else math.nan
+        return begin
 
     def model_difference(values, reference, given):
         v, rows = _values(values, given)
@@ -307,11 +337,13 @@ def entries() -> dict[str, Callable[..., Any]]:
 
     def model_field(values, work, k, given):
         v, places = _values(values, given)
-        a, begin, _ = arrange(v, places[0], work, given)
+        a, (begin, _), _ = arrange(v, places[0], work, given)
         for i in range(a.shown.shape[0]):
             for j in range(a.shown.shape[1]):
                 a.shown[i, j] = _element(a.own.strips, a.own.fields, fields[k], i, j) if i < a.count[0] else 0.0
         return begin
 
-    called_by_c = (model_memory, model_size, model_prepare, model_outputs, model_lazy, model_difference, model_field)
+    called_by_c = (
+        model_memory, model_size, model_prepare, model_outputs, model_lazy, model_jacobian, model_difference, model_field,
+    )  # fmt: skip
     return {function.__name__: function for function in called_by_c}

@@ -22,10 +22,13 @@ from contact.kernels.rows import N_PROFILE_ROWS, Bin
 from ..tables.wheel_rail_pair import ACCUMULATED, BINS, table
 from ..variables import Table
 from . import pair_parts
-from .components import Failure
+from .components import PAIR_DERIVED, Failure
 from .memory import compiled
 from .pair_parts import sizer
 from .wires import references
+
+#: Shape of the derivatives that the host sees.
+DERIVED = tuple(map(len, PAIR_DERIVED))
 
 
 class Start(NamedTuple):
@@ -56,12 +59,19 @@ def _lay_start(work, piece, n_bins, resources):
 
 @compiled
 def _lay(work, end, start, counts, size, constants):
-    """Lay out the bench from index `end` on, for curves of `counts` nodes. Return it and the total size in numbers."""
+    """Lay out the bench from index `end` on, for curves of `counts` nodes.
+
+    Return it, the arrays for its derivatives, these as the host sees them with their index, and the total size in numbers.
+    """
     search, end = memory.lay_search(work, end, counts[0], counts[1], 0, size.n_samples)
     piece = memory.memory_size(size)
     own, _, end = lay_out(work, end, start.kept[1 : 1 + piece], size, constants)
     ledger, end = memory.lay_ledger(work, end, start.wheel, start.turned, start.bins, size.n_strips)
-    return memory.lay_bench(work, end, size, start.kept, search, own, ledger)
+    bench, end = memory.lay_bench(work, end, size, start.kept, search, own, ledger)
+    near, end = memory.lay_neighbour(work, end, size, bench)
+    aside, end = memory.lay_aside(work, end, size, near)
+    derived, total = block.matrix(work, end, *DERIVED)
+    return bench, aside, (derived, end), total
 
 
 @compiled
@@ -117,9 +127,9 @@ def layout_of(table: Table) -> Layout:
 
     @compiled
     def arrange(v, work, given):
-        """Return the bench that `model_prepare` has filled."""
+        """Return the bench that `model_prepare` has filled, and what belongs to its derivatives."""
         start, end = begin(v, work, given.resources)
-        return _lay(work, end, start, (int(start.counts[0]), int(start.counts[1])), size(v), given.data)[0]
+        return _lay(work, end, start, (int(start.counts[0]), int(start.counts[1])), size(v), given.data)[:3]
 
     return Layout(size, n_bins, begin, arrange)
 
@@ -130,7 +140,7 @@ def entries() -> dict[str, Callable[..., Any]]:
     at, n_values = references(rows), rows.span[ACCUMULATED[0]].start
     set_parameters, report, difference = _parameter_setter(rows), pair_parts.reporter(rows), pair_parts.differ(rows)
     size, n_bins, begin, arrange = layout_of(rows)
-    solve = pair_parts.step_solver(rows)
+    solve, derive = pair_parts.step_solver(rows), pair_parts.deriver(rows)
 
     def model_memory(values, given):
         v = carray(values, (n_values,))
@@ -140,7 +150,7 @@ def entries() -> dict[str, Callable[..., Any]]:
         v = carray(values, (n_values,))
         start, end = begin(v, values, given.resources)
         counts = start.wheel.shape[1], start.turned.shape[1]
-        return _lay(values, end, start, counts, size(v), given.data)[1]
+        return _lay(values, end, start, counts, size(v), given.data)[3]
 
     def model_prepare(values, work, given):
         v = carray(values, (n_values,))
@@ -155,7 +165,7 @@ def entries() -> dict[str, Callable[..., Any]]:
         if deepest < v[at.track_gauge_point]:
             return Failure.GAUGE_POINT
         counts = wheel_to - wheel_from, rail_to - rail_from
-        bench, _ = _lay(work, end, start, counts, size(v), given.data)
+        bench, _, _, _ = _lay(work, end, start, counts, size(v), given.data)
         _place(wheel, turned, start.counts, bench.search)
         fill(bench.own, v[at.material_poisson_ratio], given.data)
         set_parameters(v, origin_y, origin_z, bench)
@@ -165,7 +175,7 @@ def entries() -> dict[str, Callable[..., Any]]:
 
     def model_outputs(values, work, h, given):
         v = carray(values, (n_values,))
-        bench = arrange(v, work, given)
+        bench, _, _ = arrange(v, work, given)
         bench.ledger.settings[0].distance = v[at.velocity_x] * h
         failure = solve(values, v, memory.memory_size(size(v)), bench)
         if failure > 0:
@@ -175,8 +185,14 @@ def entries() -> dict[str, Callable[..., Any]]:
         report(v, bench)
         return bench.total[0].status
 
+    def model_jacobian(values, work, given):
+        v = carray(values, (n_values,))
+        bench, aside, (derived, begin_derived) = arrange(v, work, given)
+        derive(values, v, bench, aside, derived)
+        return begin_derived
+
     def model_difference(values, reference, given):
         return difference(carray(values, (n_values,)), reference)
 
-    called_by_c = (model_memory, model_size, model_prepare, model_outputs, model_difference)
+    called_by_c = (model_memory, model_size, model_prepare, model_outputs, model_jacobian, model_difference)
     return {function.__name__: function for function in called_by_c}

@@ -21,6 +21,7 @@ from . import pair_parts
 from .components import Failure
 from .memory import compiled
 from .pair_parts import sizer
+from .wheel_rail_pair import DERIVED
 from .wires import references
 
 _TILTED = FRAME.number("Tilted")
@@ -37,11 +38,15 @@ def _found(resources):
 
 @compiled
 def _lay(work, given, size):
-    """Lay out the bench. Return it and the total size in numbers."""
+    """Lay out the bench. Return it, and what else `wheel_rail_pair` lays after it."""
     wheel, n_wheel, rail, n_rail = _found(given.resources)
     kept, end = block.vector(work, 0, memory.pair_memory_size(memory.memory_size(size)))
     bench, _, end = lay_bench(work, end, wheel, n_wheel, rail, n_rail, size, kept, given.data)
-    return bench, end
+    search, end = memory.lay_surface_search(work, end, bench.search.wheel, bench.search.rail, size.n_samples)
+    near, end = memory.lay_beside(work, end, search, bench)
+    aside, end = memory.lay_aside(work, end, size, near)
+    derived, total = block.matrix(work, end, *DERIVED)
+    return bench, aside, (derived, end), total
 
 
 def _parameter_setter(table: Table) -> Callable[..., Any]:
@@ -78,13 +83,13 @@ def entries() -> dict[str, Callable[..., Any]]:
     rows = table()
     at, n_values = references(rows), len(rows.scalars)
     set_parameters, report, difference = _parameter_setter(rows), pair_parts.reporter(rows), _differ(rows)
-    size, solve = sizer(rows), pair_parts.step_solver(rows)
+    size, solve, derive = sizer(rows), pair_parts.step_solver(rows), pair_parts.deriver(rows)
 
     def model_memory(values, given):
         return memory.pair_memory_size(memory.memory_size(size(carray(values, (n_values,)))))
 
     def model_size(values, given):
-        return _lay(values, given, size(carray(values, (n_values,))))[1]
+        return _lay(values, given, size(carray(values, (n_values,))))[3]
 
     def model_prepare(values, work, given):
         v = carray(values, (n_values,))
@@ -93,16 +98,17 @@ def entries() -> dict[str, Callable[..., Any]]:
             return Failure.WHEEL
         if not is_sound(rail, n_rail):
             return Failure.RAIL
-        bench, _ = _lay(work, given, size(v))
+        bench, aside, _, _ = _lay(work, given, size(v))
         fill(bench.own, v[at.material_poisson_ratio], given.data)
         y, z = place_of(rail)
         set_parameters(v, y, z, bench)
         prepare_search(wheel, n_wheel, bench.search)
+        prepare_search(wheel, n_wheel, aside.bench.search)
         return 0
 
     def model_outputs(values, work, h, given):
         v = carray(values, (n_values,))
-        bench, _ = _lay(work, given, size(v))
+        bench, _, _, _ = _lay(work, given, size(v))
         motion = bench.search.motion[0]
         motion.station, motion.rotation = v[at.pose_station], v[at.pose_rotation] + v[at.offset_pitch]
         failure = solve(values, v, memory.memory_size(size(v)), bench)
@@ -111,8 +117,14 @@ def entries() -> dict[str, Callable[..., Any]]:
         report(v, bench)
         return bench.total[0].status
 
+    def model_jacobian(values, work, given):
+        v = carray(values, (n_values,))
+        bench, aside, (derived, begin), _ = _lay(work, given, size(v))
+        derive(values, v, bench, aside, derived)
+        return begin
+
     def model_difference(values, reference, given):
         return difference(carray(values, (n_values,)), reference)
 
-    called_by_c = (model_memory, model_size, model_prepare, model_outputs, model_difference)
+    called_by_c = (model_memory, model_size, model_prepare, model_outputs, model_jacobian, model_difference)
     return {function.__name__: function for function in called_by_c}

@@ -128,7 +128,15 @@ def _parameters() -> Iterable[Variable]:
         minimum=1,
         maximum=1000,
     )
-    yield parameter("resolution.n_strips", "Strips per patch", integer=True, start=N_STRIPS, minimum=4, maximum=1000)
+    yield parameter(
+        "resolution.n_strips",
+        "Strips per patch. Above 200 the time of interacting strips grows with the cube of those of all patches: a second for "
+        "1000, a minute for several patches of 1000",
+        integer=True,
+        start=N_STRIPS,
+        minimum=4,
+        maximum=1000,
+    )
     yield parameter(
         "resolution.n_elements", "Elements per strip", integer=True, start=N_ELEMENTS, minimum=4, maximum=1000
     )

@@ -222,7 +222,7 @@ def _outputs() -> Iterable[Variable]:
     yield output(
         "creep_stiffness",
         "d(force.x, force.y, moment.z)/d(longitudinal, lateral, spin creepage); computed only when it is read, which takes "
-        "about three steps",
+        "about one step",
         unit=("N", "N", "N.m", "N", "N", "N.m", "N.m", "N.m", "N.m2"),
         shape=(3, 3),
         nominal=1e6,

@@ -115,11 +115,19 @@ class Host:
 
     def wrong_calls(self, folder: Path, trials: int) -> str:
         """Call every function of both versions of FMI wrongly, each time in a process of its own. Return what was done."""
-        program = folder / "wrong"
-        flags = ["-std=gnu11", "-O1", f"-I{self.program.parent}", f"-I{HEADERS}"]
-        run(*self.compiler, *flags, HOST / "common.c", HOST / "wrong.c", "-o", program, "-ldl", "-lpthread", "-lm")
-        words = [program, self.library, self.guid, self.resources, path_of(self.resources), trials]
-        done = subprocess.run(list(map(str, words)), capture_output=True, text=True, timeout=3000)
+        return self._program("wrong", folder, trials)
+
+    def hardships(self, folder: Path) -> str:
+        """Let every allocation fail once, run on a small stack, fork, and load the library again. Return what was done."""
+        return self._program("hard", folder)
+
+    def _program(self, name: str, folder: Path, *words: object) -> str:
+        """Compile a host of both versions of FMI, run it and return its output."""
+        program = folder / name
+        flags = ["-std=gnu11", "-O1", "-rdynamic", f"-I{self.program.parent}", f"-I{HEADERS}"]
+        run(*self.compiler, *flags, HOST / "common.c", HOST / f"{name}.c", "-o", program, "-ldl", "-lpthread", "-lm")
+        given = [program, self.library, self.guid, self.resources, path_of(self.resources), *words]
+        done = subprocess.run(list(map(str, given)), capture_output=True, text=True, timeout=3000)
         assert done.returncode == 0, done.stdout[-3000:] + done.stderr[-3000:]
         return done.stdout
 

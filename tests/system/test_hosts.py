@@ -78,6 +78,13 @@ def test_fmuloader_gives_the_same_digits(native):
     assert run("fmuloader", "fmuloader_contact.py", native)["force.x"] == [pytest.approx(solved().Fx, rel=1e-12)]
 
 
+def test_fmuloader_gives_adjoint_derivatives_of_fmi_3(native):
+    found = run("fmuloader", "fmuloader_contact.py", native.parent / "fmi3" / "WheelRailContact.fmu")
+    assert found["force.x"] == [pytest.approx(solved().Fx, rel=1e-12)]
+    assert found["adjoint"] == found["directional"]
+    assert found["adjoint"][0] < -1e6
+
+
 def test_libcosim_chooses_a_method_by_its_number(native):
     names = list(contact.methods().batched.tangential)
     for number in (1, 2):
@@ -121,6 +128,30 @@ def pair_force() -> float:
 def test_the_pair_has_the_same_force_in_every_host(native, pair_force, host, script, words, accuracy):
     found = run(host, script, native.with_name("WheelRailPair.fmu"), *words)
     assert found["force.y"] == [pytest.approx(pair_force, rel=accuracy)]
+
+
+def test_ecos_reads_fmi_3(native, pair_force):
+    found = run("ecospy", "ecos_pair.py", native.parent / "fmi3" / "WheelRailPair.fmu", *GIVEN)
+    assert found["force.y"] == [pytest.approx(pair_force, rel=2e-4)]
+
+
+def test_the_page_of_hosts_names_scripts_and_tests_that_exist():
+    """docs/use/fmu/hosts.md lists the tests of every class of wrong calls."""
+    tests = Path(__file__).parent
+    page = (tests.parents[1] / "docs" / "use" / "fmu" / "hosts.md").read_text(encoding="utf-8")
+    defined = "".join(
+        path.read_text(encoding="utf-8") for path in (*tests.glob("test_*.py"), *tests.parent.glob("test_*.py"))
+    )
+    named = re.findall(r"`([\w/.]+)`", page[page.index("| class |") :])
+    assert len(named) > 15
+    for name in named:
+        if name.endswith(".py"):
+            assert (tests / name).is_file() or (tests.parents[1] / name).is_file(), name
+        elif name not in ("tests/system", "threads"):
+            assert f"def test_{name}" in defined or f"_{name}" in defined, name
+    scripts = (tests.parents[1] / "examples" / "hosts" / "readme.md").read_text(encoding="utf-8")
+    for path in EXAMPLES.glob("*.py"):
+        assert path.name in scripts
 
 
 def test_cofmupy_couples_two_contacts(native):

@@ -246,7 +246,7 @@ def _write_fields(block, last, elements, falling, lanes, trace, fields):
 
 
 @kernel
-def _energy(strips, i, l, lanes):
+def energy(strips, i, l, lanes):
     """Return what the slip of strip i, in lane l, dissipates and the work of its forces, per metre rolled [N]."""
     a, y, xc = strips[Strip.A, i], strips[Strip.Y, i], strips[Strip.XC, i]
     vx, vy, phi = strips[Strip.VX, i], strips[Strip.VY, i], strips[Strip.PHI, i]
@@ -260,7 +260,16 @@ def _energy(strips, i, l, lanes):
 
 
 @kernel
-def _factor(power, work):
+def forces_of(strips, i, l, lanes):
+    """Return force and moment of strip i, in lane l [N, N m]."""
+    a, y, xc = strips[Strip.A, i], strips[Strip.Y, i], strips[Strip.XC, i]
+    load = lanes[Lane.BOUND + l] * a * strips[Strip.DY, i]
+    Fx, Fy = load * lanes[Lane.SUM_X + l], load * lanes[Lane.SUM_Y + l]
+    return Fx, Fy, load * a * lanes[Lane.SUM_M + l] + xc * Fy - y * Fx
+
+
+@kernel
+def slip_factor(power, work):
     """Return the factor of the slip velocities of a patch with which they dissipate the work of its forces."""
     return min(max(work / power, 1.0 / _MOST), _MOST) if power > 0.0 else 1.0
 
@@ -284,9 +293,9 @@ def roll_patch(first: int, last: int, case: Case, of_patch: OfPatch, own: Worksp
             march(Uneven(1), elements, lanes, trace)
             add_zone(elements, lanes)
             for l in range(min(LANES, last - block)):
-                more_power, more_work = _energy(strips, block + l, l, lanes)
+                more_power, more_work = energy(strips, block + l, l, lanes)
                 power, work = power + more_power, work + more_work
-        factor = _factor(power, work)
+        factor = slip_factor(power, work)
         power, work = 0.0, 0.0
     for block in range(first, last, LANES):
         set_block(strips, block, last, case, own.tables.kalker, of_patch, lanes)
@@ -298,14 +307,12 @@ def roll_patch(first: int, last: int, case: Case, of_patch: OfPatch, own: Worksp
             _apply_friction(case, factor, elements, lanes, trace)
         for l in range(min(LANES, last - block)):
             i = block + l
-            a, dy, y, xc = strips[Strip.A, i], strips[Strip.DY, i], strips[Strip.Y, i], strips[Strip.XC, i]
-            bound = lanes[Lane.BOUND + l]
-            load = bound * a * dy
-            Fx, Fy = load * lanes[Lane.SUM_X + l], load * lanes[Lane.SUM_Y + l]
+            a, dy, bound = strips[Strip.A, i], strips[Strip.DY, i], lanes[Lane.BOUND + l]
+            Fx, Fy, Mz = forces_of(strips, i, l, lanes)
             result.Fx += Fx
             result.Fy += Fy
-            result.Mz += load * a * lanes[Lane.SUM_M + l] + xc * Fy - y * Fx
-            more_power, more_work = _energy(strips, i, l, lanes)
+            result.Mz += Mz
+            more_power, more_work = energy(strips, i, l, lanes)
             power, work = power + more_power, work + more_work
             stick = lanes[Lane.STICK + l] + rest * (1.0 - lanes[March.SLIPS + l]) if bound > 0.0 else 0.0
             slip = 2.0 - stick
@@ -313,7 +320,7 @@ def roll_patch(first: int, last: int, case: Case, of_patch: OfPatch, own: Worksp
         if fields.shape[1] >= last:  # else only forces are wanted
             _write_fields(block, last, elements, falling, lanes, trace, fields)
     if not falling:
-        factor = _factor(power, work)
+        factor = slip_factor(power, work)
     result.power += factor * power
     for i in range(first, last if fields.shape[1] >= last else first):
         for k in range(elements.shape[1]):

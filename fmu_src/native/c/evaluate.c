@@ -60,8 +60,8 @@ static const Message *message(const Instance *instance, int64_t number)
 {
     return &instance->table.messages[number > 0 && (uint64_t)number <= N(messages) ? number : 0];
 }
-static bool failed(const Instance *instance, int64_t number) { return message(instance, number)->category == LOG_DISCARD; }
-static Status say(const Instance *instance, int64_t number)
+bool has_failed(const Instance *instance, int64_t number) { return message(instance, number)->category == LOG_DISCARD; }
+Status say(const Instance *instance, int64_t number)
 {
     const Message *m = message(instance, number);
     return m->category ? report(instance, (Category)m->category, "%s", TEXT(m->text)) : OK;
@@ -103,7 +103,7 @@ Status prepare(Instance *instance, double *values)
     instance->memory_size = memory_size;
     memcpy(instance->prepared, values, N(parameters) * sizeof(double));
     number = instance->kernels->prepare(values, instance->work, instance->resources, instance->table.own);
-    if (!failed(instance, number)) return OK;
+    if (!has_failed(instance, number)) return OK;
     free_work(instance);
     return say(instance, number);
 }
@@ -128,7 +128,7 @@ int64_t evaluate(const Instance *instance, double *values, double h)
 {
     bool starting = N(states) > 0 && instance->is.phase == INITIALIZATION;
     int64_t number = starting ? instance->kernels->start(values, instance->work, instance->resources, instance->table.own) : 0;
-    if (failed(instance, number) || (starting && instance->type == CO_SIMULATION)) return number;
+    if (has_failed(instance, number) || (starting && instance->type == CO_SIMULATION)) return number;
     return instance->kernels->outputs(values, instance->work, h, instance->resources, instance->table.own);
 }
 
@@ -158,7 +158,7 @@ Status update(Instance *instance, double h, bool warm)
     else
         memset(instance->work, 0, memory_bytes);
     number = evaluate(instance, values, h);
-    if (failed(instance, number)) {
+    if (has_failed(instance, number)) {
         memcpy(values, before, N(values) * sizeof(double));
         return say(instance, number);
     }

@@ -162,6 +162,14 @@ fmi3Status fmi3GetDirectionalDerivative(fmi3Instance c, const fmi3ValueReference
     return SHARED(derivative(c, __func__, unknowns, n_unknowns, knowns, n_knowns, seed, n_seed, result, n_result));
 }
 
+fmi3Status fmi3GetAdjointDerivative(fmi3Instance c, const fmi3ValueReference unknowns[], size_t n_unknowns,
+                                    const fmi3ValueReference knowns[], size_t n_knowns, const fmi3Float64 seed[],
+                                    size_t n_seed, fmi3Float64 result[], size_t n_result)
+{
+    NO_NULL(c, IF(n_unknowns, unknowns), IF(n_knowns, knowns), IF(n_seed, seed), IF(n_result, result));
+    return SHARED(adjoint(c, __func__, unknowns, n_unknowns, knowns, n_knowns, seed, n_seed, result, n_result));
+}
+
 /* ---------------------------------------------------------------- not provided, according to the capability flags */
 
 static fmi3Status not_provided(const Instance *instance, const char *function)
@@ -172,9 +180,6 @@ static fmi3Status not_provided(const Instance *instance, const char *function)
     fmi3Status function(fmi3Instance c, __VA_ARGS__) { return not_provided(c, __func__); }
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wunused-parameter"
-NOT_PROVIDED(fmi3GetAdjointDerivative, const fmi3ValueReference unknowns[], size_t n_unknowns,
-             const fmi3ValueReference knowns[], size_t n_knowns, const fmi3Float64 seed[], size_t n_seed,
-             fmi3Float64 result[], size_t n_result)
 NOT_PROVIDED(fmi3GetNumberOfVariableDependencies, fmi3ValueReference reference, size_t *n)
 NOT_PROVIDED(fmi3GetVariableDependencies, fmi3ValueReference dependent, size_t elements[],
              fmi3ValueReference independents[], size_t independent_elements[], fmi3DependencyKind kinds[], size_t n)

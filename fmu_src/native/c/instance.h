@@ -26,6 +26,7 @@ typedef struct {
     int64_t (*start)(double *values, double *work, const double *resources, const double *own);
     int64_t (*outputs)(double *values, double *work, double h, const double *resources, const double *own);
     int64_t (*lazy)(double *values, double *work, const double *resources, const double *own);
+    int64_t (*jacobian)(double *values, double *work, const double *resources, const double *own);
     double (*difference)(double *values, int64_t reference, const double *resources, const double *own);
     int64_t (*field)(double *values, double *work, int64_t k, const double *resources, const double *own);
 } Kernels;
@@ -106,6 +107,7 @@ typedef struct {
     uint64_t bytes; /* of the file from here on */
     uint64_t guid, name, kind; /* texts */
     uint64_t n_values, n_accumulated, n_fields, n_parameters, n_states, n_messages, n_totals, n_choices, n_mirrors, n_resources;
+    uint64_t n_derived, n_derived_by; /* rows and columns of the matrix of derivatives that the kernels know */
     int64_t accumulates; /* enumeration: nothing accumulates with its first item; or NONE */
     int64_t field_factor, field_by[2]; /* size of a field: this number times two parameters, or NONE */
     uint64_t n_own, n_text; /* numbers for the kernels; bytes of all texts */
@@ -123,6 +125,7 @@ typedef struct {
     const Total *totals;
     const Twin *choices, *mirrors;
     const Resource *resources;
+    const int64_t *derived, *derived_by; /* value references */
     const double *own;
     const char *text;
 } Table;
@@ -176,7 +179,9 @@ typedef struct {
     double *solved; /* the values for which the outputs were computed */
     double *accepted; /* model exchange: rates of the totals at accepted_time */
     double *prepared; /* parameters for which `work` is laid out and filled; none if the first one is negative */
-    double *before, *other; /* values within a call */
+    double *before, *other, *rest; /* values within a call */
+    double *slopes, *slopes_at; /* the matrix of derivatives, and the values at which it was computed */
+    bool has_slopes;
     double *nothing; /* zeros in place of what accumulates */
     double *memory; /* twice memory_size numbers: warm start of the next step, then the warm start of the present outputs */
     int64_t memory_size;
@@ -243,9 +248,18 @@ Status before_get(Instance *instance, const char *function, const Reference refs
 Status before_set(Instance *instance, const char *function, const Reference refs[], size_t n, int kinds, size_t n_values);
 size_t extent(const Instance *instance, Reference reference);
 const double *numbers(const Instance *instance, Reference reference);
+const double *numbers_of(const Instance *instance, double *values, Reference reference);
+Status check_references(const Instance *instance, const Reference refs[], size_t n, int kinds, int roles, size_t n_values,
+                        const char *function);
+
+/* derivatives.c */
 Status derivative(Instance *instance, const char *function, const Reference unknowns[], size_t n_unknowns,
                   const Reference knowns[], size_t n_knowns, const double seed[], size_t n_seed, double result[],
                   size_t n_result);
+
+Status adjoint(Instance *instance, const char *function, const Reference unknowns[], size_t n_unknowns,
+               const Reference knowns[], size_t n_knowns, const double seed[], size_t n_seed, double result[],
+               size_t n_result);
 
 /* simulate.c */
 Status do_step(Instance *instance, const char *function, double time, double h);
@@ -276,6 +290,8 @@ bool in_range(const Variable *variable, double value);
 bool is_allowed(const Instance *instance, size_t i, const double *values);
 Status check_ranges(const Instance *instance, const double *values, size_t n);
 Status prepare(Instance *instance, double *values);
+bool has_failed(const Instance *instance, int64_t number); /* whether the number of a message means that nothing was computed */
+Status say(const Instance *instance, int64_t number);
 int64_t evaluate(const Instance *instance, double *values, double h); /* does not change the content, but uses working memory */
 Status update(Instance *instance, double h, bool warm);
 void accumulate(Instance *instance);

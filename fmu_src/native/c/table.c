@@ -7,7 +7,7 @@
 #include "wheelrail_records.h" /* asserts that this compiler lays out records as the kernels do */
 
 static const char file_name[] = "model.bin";
-enum { LARGEST = 1 << 28 }; /* bytes of a file */
+enum { LARGEST = 1 << 28, MOST_DERIVED = 1000 }; /* bytes of a file; rows or columns of its derivatives */
 
 /* Read the file into one block. Return it without the first 16 bytes, or log a message and return NULL. */
 static double *read_all(const Instance *instance, FILE *file)
@@ -46,7 +46,8 @@ static bool lay(Table *t)
     const Head *h = (const Head *)t->block;
     const char *at = (const char *)t->block + sizeof *h;
     const uint64_t counts[] = {h->n_values, h->n_accumulated, h->n_fields, h->n_states, h->n_messages, h->n_totals,
-                               h->n_choices, h->n_mirrors, h->n_resources, h->n_own, h->n_text};
+                               h->n_choices, h->n_mirrors, h->n_resources, h->n_derived, h->n_derived_by, h->n_own,
+                               h->n_text};
     for (size_t i = 0; i < sizeof counts / sizeof *counts; i++)
         if (counts[i] > LARGEST / 8) return false; /* the sums below do not overflow */
     t->head = h;
@@ -58,6 +59,8 @@ static bool lay(Table *t)
     PART(choices, h->n_choices);
     PART(mirrors, h->n_mirrors);
     PART(resources, h->n_resources);
+    PART(derived, h->n_derived);
+    PART(derived_by, h->n_derived_by);
     PART(own, h->n_own);
     PART(text, h->n_text);
     return at == (const char *)t->block + h->bytes;
@@ -106,6 +109,11 @@ static const char *fault(const Table *t)
     for (uint64_t i = 0; i < h->n_resources; i++)
         if (!IS_TEXT(t->resources[i].name) || t->resources[i].rows < 1 || t->resources[i].rows > 1000 ||
             t->resources[i].most < 4 || t->resources[i].most > LARGEST) return "resources";
+    if (h->n_derived > MOST_DERIVED || h->n_derived_by > MOST_DERIVED) return "derivatives";
+    for (uint64_t i = 0; i < h->n_derived; i++)
+        if (!IS_VALUE(t->derived[i])) return "derivatives";
+    for (uint64_t i = 0; i < h->n_derived_by; i++)
+        if (!IS_VALUE(t->derived_by[i])) return "derivatives";
     return NULL;
 }
 
@@ -135,7 +143,7 @@ bool load_table(Instance *instance, const char *folder)
         return false;
     }
     n = (size_t)N(values);
-    instance->values = calloc(5 * n + N(totals) + N(accumulated) + 1, sizeof(double));
+    instance->values = calloc(7 * n + N(totals) + N(accumulated) + 1 + N(derived) * N(derived_by), sizeof(double));
     if (!instance->values) {
         report(instance, LOG_ERROR, "out of memory");
         return false;
@@ -145,7 +153,10 @@ bool load_table(Instance *instance, const char *folder)
     instance->prepared = instance->accepted + N(totals);
     instance->before = instance->prepared + n;
     instance->other = instance->before + n;
-    instance->nothing = instance->other + n;
+    instance->rest = instance->other + n;
+    instance->slopes_at = instance->rest + n;
+    instance->slopes = instance->slopes_at + n;
+    instance->nothing = instance->slopes + N(derived) * N(derived_by);
     return true;
 }
 

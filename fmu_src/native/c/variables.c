@@ -1,7 +1,4 @@
-/* Reading and setting variables, the states in which this is legal, and directional derivatives. */
-#include <math.h>
-#include <string.h>
-
+/* Reading and setting variables, and the states in which this is legal. */
 #include "instance.h"
 
 /* Count of numbers that a value reference denotes. */
@@ -21,7 +18,7 @@ static const double *accumulated(const Instance *instance)
 }
 
 /* The numbers in `values` or working memory that a value reference denotes. */
-static const double *numbers_of(const Instance *instance, double *values, Reference reference)
+const double *numbers_of(const Instance *instance, double *values, Reference reference)
 {
     const int64_t field = (int64_t)(reference - N(values) - N(accumulated));
     if (instance->table.variables[reference].role == ACCUMULATED) return accumulated(instance) + (reference - N(values));
@@ -44,8 +41,8 @@ static bool exists(const Instance *instance, Reference reference)
 }
 
 /* Check that all references have these kinds and roles and denote n_values numbers. */
-static Status check(const Instance *instance, const Reference refs[], size_t n, int kinds, int roles, size_t n_values,
-                    const char *function)
+Status check_references(const Instance *instance, const Reference refs[], size_t n, int kinds, int roles, size_t n_values,
+                        const char *function)
 {
     size_t count = 0;
     if (n > 0 && !refs) return report(instance, LOG_ERROR, "%s: the value references are NULL", function);
@@ -68,7 +65,7 @@ Status before_get(Instance *instance, const char *function, const Reference refs
     Status status, later = OK;
     REQUIRE(instance, function, instance->arrays ? ANY : ANY & ~INSTANTIATED);
     if (!(instance->is.phase & (INSTANTIATED | CONFIGURATION))) roles |= ANY_OUTPUT | FIELD;
-    status = check(instance, refs, n, kinds, roles, n_values, function);
+    status = check_references(instance, refs, n, kinds, roles, n_values, function);
     if (status != OK) return status;
     for (size_t k = 0; k < n; k++) {
         read |= (int)instance->table.variables[refs[k]].role;
@@ -93,85 +90,7 @@ Status before_set(Instance *instance, const char *function, const Reference refs
     if (instance->arrays && n > 0 && (kinds == COUNT) != (instance->is.phase == CONFIGURATION))
         return report(instance, LOG_ERROR, "%s: only structural parameters are set, and only in configuration mode", function);
     if (instance->is.phase == CONFIGURATION) roles = PARAMETER;
-    status = check(instance, refs, n, kinds, roles, n_values, function);
+    status = check_references(instance, refs, n, kinds, roles, n_values, function);
     if (status == OK && n > 0) instance->is.is_new = true;
     return status;
-}
-
-/* Return `h`, or 0 if a step of this length along the seed leaves the range of a known. */
-static double reach(const Instance *instance, const double *seeds, double h)
-{
-    for (size_t i = 0; i < N(values); i++)
-        if (seeds[i] != 0.0 && !in_range(&instance->table.variables[i], instance->values[i] + h * seeds[i])) return 0.0;
-    return h;
-}
-
-/* Compute values and outputs at a distance h along the seed. */
-static void displaced(Instance *instance, const double *seeds, double h, bool lazy, double *values)
-{
-    for (size_t i = 0; i < N(values); i++)
-        values[i] = seeds[i] != 0.0 ? instance->values[i] + h * seeds[i] : instance->values[i];
-    memset(instance->work, 0, (size_t)instance->memory_size * sizeof(double));
-    instance->work_is_solved = false;
-    evaluate(instance, values, 0.0);
-    if (!lazy) return;
-    instance->kernels->lazy(values, instance->work, instance->resources, instance->table.own);
-    memset(instance->work, 0, (size_t)instance->memory_size * sizeof(double));
-    evaluate(instance, values, 0.0); /* restores the fields, which the lazy outputs overwrite */
-}
-
-/* Directional derivatives of outputs and state derivatives with respect to inputs and states (in initialisation: inputs and
- * parameters) at their present values. They are central differences with a suitable step for each variable, one-sided at the
- * end of a range. In co-simulation outputs are also taken as functions of the present inputs, as a step computes them in a
- * model without states. */
-Status derivative(Instance *instance, const char *function, const Reference unknowns[], size_t n_unknowns,
-                  const Reference knowns[], size_t n_knowns, const double seed[], size_t n_seed, double result[],
-                  size_t n_result)
-{
-    double *seeds = instance ? instance->before : NULL, *values = instance ? instance->other : NULL;
-    double up, down /* negative */, h = INFINITY;
-    bool lazy = false;
-    Status status;
-    REQUIRE(instance, function, INITIALIZATION | RUNNING | TERMINATED);
-    status = check(instance, unknowns, n_unknowns, REAL, ANY_OUTPUT | FIELD, n_result, function);
-    if (status == OK)
-        status = check(instance, knowns, n_knowns, REAL | INTEGER | ENUMERATION | BOOLEAN, INPUT | (instance->is.phase == INITIALIZATION ? PARAMETER : STATE),
-                       n_seed, function);
-    choose(instance, instance->values);
-    if (status == OK) status = check_ranges(instance, instance->values, N(values));
-    if (status == OK) status = prepare(instance, instance->values);
-    if (status != OK) return status;
-
-    memset(seeds, 0, N(values) * sizeof *seeds);
-    for (size_t k = 0; k < n_knowns; k++)
-        for (size_t i = 0; i < extent(instance, knowns[k]); i++, seed++) {
-            if (!isfinite(*seed)) return report(instance, LOG_ERROR, "a seed of a directional derivative is not finite");
-            /* OMSimulator names every dependency of an unknown, enumerations too, with seeds of 0. */
-            if (*seed != 0.0 && !(instance->table.variables[knowns[k]].kind & REAL))
-                return report(instance, LOG_ERROR, "%s is not a variable for %s now, unless its seed is 0",
-                              TEXT(instance->table.variables[knowns[k]].name), function);
-            seeds[knowns[k] + i] += *seed;
-        }
-    if (n_result > 0) memset(result, 0, n_result * sizeof *result); /* else it may be NULL */
-    for (size_t k = 0; k < n_unknowns; k++) lazy |= instance->table.variables[unknowns[k]].lazy != 0;
-    displaced(instance, seeds, 0.0, false, values); /* the steps depend on the outputs at the present values */
-    for (size_t i = 0; i < N(values); i++)
-        if (seeds[i] != 0.0) h = fmin(h, instance->kernels->difference(values, (int64_t)i, instance->resources, instance->table.own) / fabs(seeds[i]));
-    if (isinf(h)) return OK;
-    up = reach(instance, seeds, h);
-    down = reach(instance, seeds, -h);
-    if (up == down) return report(instance, LOG_DISCARD, "the directional derivative leaves the allowed range");
-    displaced(instance, seeds, up, lazy, values);
-    for (size_t k = 0, at = 0; k < n_unknowns; at += extent(instance, unknowns[k++]))
-        memcpy(result + at, numbers_of(instance, values, unknowns[k]), extent(instance, unknowns[k]) * sizeof *result);
-    displaced(instance, seeds, down, lazy, values);
-    for (size_t k = 0; k < n_unknowns; k++) {
-        const double *behind = numbers_of(instance, values, unknowns[k]);
-        for (size_t i = 0; i < extent(instance, unknowns[k]); i++, result++) {
-            *result = (*result - behind[i]) / (up - down);
-            if (!isfinite(*result))
-                return report(instance, LOG_DISCARD, "%s has no finite derivative here", TEXT(instance->table.variables[unknowns[k]].name));
-        }
-    }
-    return OK;
 }

@@ -178,7 +178,10 @@ static fmi3Instance in_state(int state, Type type)
     X(GetDirectionalDerivative(c, &force, 1, &gap, 1, gaps, SAMPLES, &number, 1), AFTER, AFTER) \
     X(GetDirectionalDerivative(c, &force, 1, &gap, 1, &one, 1, &number, 1), 0, 0) \
     X(GetDirectionalDerivative(c, &load, 1, &load, 1, &one, 1, &number, 1), 0, 0) \
-    X(GetAdjointDerivative(c, &force, 1, &load, 1, &one, 1, &number, 1), 0, 0) \
+    X(GetAdjointDerivative(c, &force, 1, &load, 1, &one, 1, &number, 1), AFTER, AFTER) \
+    X(GetAdjointDerivative(c, &force, 1, &gap, 1, &one, 1, gaps, SAMPLES), AFTER, AFTER) \
+    X(GetAdjointDerivative(c, &force, 1, &gap, 1, &one, 1, gaps, 1), 0, 0) \
+    X(GetAdjointDerivative(c, &load, 1, &load, 1, &one, 1, &number, 1), 0, 0) \
     X(GetNumberOfVariableDependencies(c, force, &count), 0, 0) \
     X(GetVariableDependencies(c, force, NULL, NULL, NULL, NULL, 0), 0, 0) \
     X(GetOutputDerivatives(c, &force, 1, &order, &number, 1), 0, 0) \
@@ -319,7 +322,7 @@ static void random_calls(int n)
         fmi3ValueReference r = draw(V_time + 3);
         fmi3UInt64 resolution = draw(12);
         fmi3Int64 item = (fmi3Int64)draw(8) - 2;
-        switch (draw(18)) {
+        switch (draw(19)) {
         case 0: FreeFMUState(c, &saved), FreeInstance(c), c = with_few_strips(make(draw(2) ? CS : ME, quiet)); break;
         case 1: EnterInitializationMode(c, fmi3False, 0.0, 0.0, fmi3False, 0.0); break;
         case 2: ExitInitializationMode(c); break;
@@ -332,6 +335,7 @@ static void random_calls(int n)
         case 9: if (!draw(10)) Terminate(c); break;
         case 10: if (!draw(4)) Reset(c); break;
         case 11: GetDirectionalDerivative(c, &force, 1, &r, 1, odd + draw(8), 1, &number, 1); break;
+        case 18: GetAdjointDerivative(c, &force, 1, &r, 1, odd + draw(8), 1, &number, 1); break;
         case 12: SetTime(c, odd[draw(8)]), CompletedIntegratorStep(c, fmi3True, flag, flag + 1); break;
         case 13: EnterConfigurationMode(c), SetUInt64(c, &strips, 1, &resolution, 1), ExitConfigurationMode(c); break;
         case 14:
@@ -348,6 +352,48 @@ static void random_calls(int n)
         }
     }
     FreeFMUState(c, &saved);
+    FreeInstance(c);
+}
+
+/* v J u by directional derivatives and by adjoint ones, for inputs that the model derives by and for others, and columns that
+ * a host asks one by one. */
+static void adjoint(void)
+{
+    enum { UNKNOWNS = 6, KNOWNS = 6, NUMBERS = KNOWNS - 1 + SAMPLES };
+    static const fmi3ValueReference unknowns[UNKNOWNS] = {V_force_x, V_force_y, V_moment_z, V_approach, V_power_friction, V_pressure_max};
+    static const fmi3ValueReference knowns[KNOWNS] = {V_creepage_longitudinal, V_creepage_lateral, V_creepage_spin,
+                                                      V_load_normal_force, V_friction_coefficient, V_geometry_g};
+    static const double v[UNKNOWNS] = {1.0, -2.0, 300.0, 1e9, 0.5, 1e-5};
+    double u[NUMBERS], row[NUMBERS], product[UNKNOWNS], column[UNKNOWNS], one_way = 0.0, other_way = 0.0, size_of = 0.0, by_columns = 0.0;
+    fmi3Instance c = make(ME, logger);
+    EnterInitializationMode(c, fmi3False, 0.0, 0.0, fmi3False, 0.0);
+    set(c, V_creepage_longitudinal, 1e-3), set(c, V_creepage_lateral, -5e-4), set(c, V_creepage_spin, 0.2);
+    ExitInitializationMode(c);
+    for (int i = 0; i < NUMBERS; i++) u[i] = 1e-7 * (1 + i % 3);
+    u[2] = 1e-4, u[3] = 10.0, u[4] = 1e-4;
+    for (int i = KNOWNS - 1; i < NUMBERS; i++) u[i] *= 1e-3;
+    check(GetDirectionalDerivative(c, unknowns, UNKNOWNS, knowns, KNOWNS, u, NUMBERS, product, UNKNOWNS) == fmi3OK, "directional", last_message);
+    check(GetAdjointDerivative(c, unknowns, UNKNOWNS, knowns, KNOWNS, v, UNKNOWNS, row, NUMBERS) == fmi3OK, "adjoint", last_message);
+    for (int i = 0; i < UNKNOWNS; i++) one_way += v[i] * product[i], size_of += fabs(v[i] * product[i]);
+    for (int i = 0; i < NUMBERS; i++) other_way += row[i] * u[i];
+    check(fabs(one_way - other_way) < 2e-4 * size_of, "v J u", "two ways, all inputs");
+    GetDirectionalDerivative(c, unknowns, UNKNOWNS - 1, knowns, KNOWNS - 1, u, KNOWNS - 1, product, UNKNOWNS - 1);
+    GetAdjointDerivative(c, unknowns, UNKNOWNS - 1, knowns, KNOWNS - 1, v, UNKNOWNS - 1, row, KNOWNS - 1);
+    one_way = other_way = size_of = 0.0;
+    for (int i = 0; i < UNKNOWNS - 1; i++) one_way += v[i] * product[i], size_of += fabs(v[i] * product[i]);
+    for (int j = 0; j < KNOWNS - 1; j++) {
+        other_way += row[j] * u[j];
+        GetDirectionalDerivative(c, unknowns, UNKNOWNS - 1, &knowns[j], 1, &one, 1, column, UNKNOWNS - 1);
+        for (int i = 0; i < UNKNOWNS - 1; i++) by_columns += v[i] * column[i] * u[j];
+    }
+    check(fabs(one_way - other_way) < 1e-13 * size_of && size_of > 1.0, "v J u", "two ways, inputs of the matrix");
+    check(fabs(one_way - by_columns) < 1e-13 * size_of, "v J u", "column by column");
+    set(c, V_creepage_longitudinal, 2e-3);
+    GetDirectionalDerivative(c, unknowns, UNKNOWNS - 1, knowns, KNOWNS - 1, u, KNOWNS - 1, column, UNKNOWNS - 1);
+    check(column[0] != product[0], "derivatives", "of a new state");
+    set(c, V_creepage_longitudinal, 1e-3);
+    GetDirectionalDerivative(c, unknowns, UNKNOWNS - 1, knowns, KNOWNS - 1, u, KNOWNS - 1, column, UNKNOWNS - 1);
+    check(!memcmp(column, product, sizeof(double) * (UNKNOWNS - 1)), "derivatives", "of the state before");
     FreeInstance(c);
 }
 
@@ -388,6 +434,7 @@ int main(int n_arguments, char **arguments)
     FUNCTIONS(FIND)
     if (!strcmp(command, "instantiate")) instantiate();
     else if (!strcmp(command, "every_call")) every_call();
+    else if (!strcmp(command, "adjoint")) adjoint();
     else if (!strcmp(command, "threads")) threads();
     else if (!strcmp(command, "random_calls")) random_calls(argument);
     else if (!strcmp(command, "speed")) speed(argument);

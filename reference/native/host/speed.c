@@ -29,6 +29,22 @@ static double reached_by_c;
 static void step(void) { DoStep(c, reached_by_c, 1e-3, fmi2True), reached_by_c += 1e-3; }
 static void set_inputs(void) { SetReal(c, references, N_INPUTS, inputs); }
 
+/* Derivatives of the forces by creepages, load and friction, each after a new value of an input. */
+enum { N_KNOWNS = 5 };
+static const fmi2ValueReference forces[] = {V_force_x, V_force_y, V_moment_z};
+static const fmi2ValueReference knowns[N_KNOWNS] = {V_creepage_longitudinal, V_creepage_lateral, V_creepage_spin,
+                                                    V_load_normal_force, V_friction_coefficient};
+static void read_stiffness(void) { step(), real(c, V_creep_stiffness); }
+static void columns(int n)
+{
+    static double creepage = 1e-3;
+    double slopes[3], one = 1.0;
+    set_real(c, V_creepage_longitudinal, creepage = creepage > 1.0005e-3 ? 1e-3 : creepage + 1e-9);
+    for (int k = 0; k < n; k++) GetDirectionalDerivative(c, forces, 3, &knowns[k], 1, &one, slopes);
+}
+static void one_column(void) { columns(1); }
+static void every_column(void) { columns(N_KNOWNS); }
+
 /* Least time of one call of each of two functions, which alternate. */
 static void pair(void (*one)(void), void (*other)(void), int n, double least[2])
 {
@@ -73,6 +89,13 @@ void speed(int n, const char *kernels)
     GetReal(c, references, N_INPUTS, inputs);
     pair(outputs, step, n, least);
     printf("kernel: %.2f us\nfmi2DoStep: %.2f us\n", least[0], least[1]);
+    pair(step, read_stiffness, n, least);
+    printf("creep_stiffness: %.2f steps\n", least[1] / least[0] - 1.0);
+    pair(step, one_column, n, least);
+    printf("derivatives by one input: %.2f steps\n", least[1] / least[0]);
+    pair(step, every_column, n, least);
+    printf("derivatives by %d inputs: %.2f steps\n", N_KNOWNS, least[1] / least[0]);
+    set_real(c, V_creepage_longitudinal, 1e-3);
     pair(set_inputs, set_inputs, 100 * n, least);
     printf("set %d inputs: %.3f us\n", N_INPUTS, fmin(least[0], least[1]));
     for (int i = 0; i < N_CONTACTS; i++) contacts[i] = in_slip();
