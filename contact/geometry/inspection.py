@@ -297,7 +297,16 @@ def noise(points: Points) -> float:
 
 
 def repaired(points: Points) -> Points:
-    """Return the points as one scan in order, without back steps and spikes.
+    """Return the points as one scan in order (`in_order`), without back steps and spikes."""
+    points = in_order(points)
+    for faulty in (spikes, backward, spikes):
+        while faulty(points).any() and len(points) > 9:
+            points = points[~faulty(points)]
+    return points
+
+
+def in_order(points: Points) -> Points:
+    """Return the points as one scan in order.
 
     Unsorted rows are joined from an end of the profile, each to its nearest neighbour. Of several scans the one with the
     most points is kept, of a scan there and back the longer way.
@@ -310,9 +319,6 @@ def repaired(points: Points) -> Points:
     turn = turning(points)
     if turn:
         points = points[: turn + 1] if turn + 1 >= len(points) - turn else points[turn:]
-    for faulty in (spikes, backward, spikes):
-        while faulty(points).any() and len(points) > 9:
-            points = points[~faulty(points)]
     return points
 
 

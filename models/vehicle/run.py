@@ -22,6 +22,7 @@ from models.vehicle.declared import VehicleDeclaration
 from models.vehicle.hunting import Hunting, fall
 from models.vehicle.kernels.layout import Axis, Book, Frame, Row, Sum
 from models.vehicle.ledgers import BODIES, fill, ledger
+from models.vehicle.notebook import of_run
 from models.vehicle.simulation import SIDES, ContactOptions, Simulation
 
 Array = NDArray[np.float64]
@@ -263,6 +264,10 @@ class VehicleRun:
         state.sums[:] = 0.0
         self._before[:] = state.u
         self._rows.append(np.array(row))
+
+    def _repr_html_(self) -> str:
+        """Return HTML for a notebook: how far the run is, the largest forces, and a sketch of Y and Q of the first axle."""
+        return of_run(self)
 
     @property
     def columns(self) -> dict[str, tuple[str, str]]:

@@ -29,6 +29,7 @@ from models.vehicle.kernels.benches import Benches, gather
 from models.vehicle.kernels.between import held
 from models.vehicle.kernels.frames import speed_at
 from models.vehicle.kernels.layout import Book, Model, Scratch, State, Sum, scratch
+from models.vehicle.notebook import of_simulation
 from models.vehicle.sections import RailSection, require_apart
 from models.vehicle.uneven import Stretch, Uneven
 
@@ -232,6 +233,10 @@ class Simulation:
         """
         solved = self._pairs[wheel].solve(Pose(), Velocity(speed), load=load, friction=self._friction)
         return solved.z
+
+    def _repr_html_(self) -> str:
+        """Return HTML for a notebook: place, time, and what every wheel does, with a sketch of the vertical forces."""
+        return of_simulation(self)
 
     @property
     def distance(self) -> float:
