@@ -58,12 +58,13 @@ PAGE = """# Accuracy and time of all methods
 
 Written by `python -m benchmarks.method_map --write docs`. {count} contacts: the most loaded patch of random poses of S1002
 on 60E1 (1:40), y from -8 to 8 mm, yaw up to 10 mrad, 20 to 160 kN a wheel, friction {friction:g}. Spin is that of the pose.
-Longitudinal and lateral creepage have random signs and sizes of .01 to 1 %, even in their logarithms. Every method gets the same
-separation, creepages and load.
+Longitudinal and lateral creepage have random signs and sizes of .01 to 1 %, even in their logarithms. Every method gets
+the same separation, creepages and load.
 
 The reference is our element-wise half space, which agrees with CONTACT on the same grid to 6e-6 of friction times load
-([Half space](halfspace.md)). Forces are extrapolated from {finer} × {finer} and {finest} × {finest} elements (from 160 and 240 instead,
-24 of the contacts differ by .0003 in the mean and .002 at most); largest pressures are those of {finest} × {finest}. CONTACT
+([Half space](halfspace.md)). Forces are extrapolated from {finer} × {finer} and {finest} × {finest} elements (from
+160 and 240 instead, 24 of the contacts differ by .0003 in the mean and .002 at most); largest pressures are
+those of {finest} × {finest}. CONTACT
 itself cannot be run here. Time is processor time, the median over the contacts, of a call from Python that starts from
 nothing; the least of {repeats} calls for fast methods, one call for the half space.
 

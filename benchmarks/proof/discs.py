@@ -19,8 +19,9 @@ def section() -> tuple[str, str]:
     )
     text = f"""## Twin disc
 
-Heat and temperature are published (read by an earlier session, issue 35); the sizes are recalled: discs of {2e3 * twin_disc.RADIUS:g} mm
-diameter, {1e3 * twin_disc.WIDTH:g} mm wide, {1e-6 * twin_disc.PEAK:g} MPa, {60 * twin_disc.REVOLUTIONS:g} revolutions per minute.
+Heat and temperature are published (read by an earlier session, issue 35); the sizes are recalled:
+discs of {2e3 * twin_disc.RADIUS:g} mm diameter, {1e3 * twin_disc.WIDTH:g} mm wide, {1e-6 * twin_disc.PEAK:g} MPa,
+{60 * twin_disc.REVOLUTIONS:g} revolutions per minute.
 Ours spreads the published heat like Hertz's pressure over the line contact, in the steel of
 [the constants](../understand/constants.md). It tests neither friction nor creep forces.
 
