@@ -26,7 +26,13 @@ Begin = Annotated[float, typer.Option("--from", help="first station of the axle 
 End = Annotated[float, typer.Option("--to", help="last station in m", rich_help_panel=_WAY)]
 Count = Annotated[int, typer.Option("--points", help="number of stations", min=1, rich_help_panel=_WAY)]
 Turned = Annotated[
-    float, typer.Option("--angle", help="angle of the wheel at the first station in rad", rich_help_panel=_WAY)
+    float | None,
+    typer.Option(
+        "--angle",
+        help="angle of the wheel at the first station in rad; default: 0 at station 0, where a flat lies",
+        show_default=False,
+        rich_help_panel=_WAY,
+    ),
 ]
 Rolling = Annotated[
     str | None,
@@ -82,7 +88,7 @@ class Stations:
     begin: Begin = 0.0
     end: End = 0.2
     points: Count = 21
-    turned: Turned = 0.0
+    turned: Turned = None
 
 
 @reported
@@ -124,7 +130,8 @@ def along(
         motion["load"] = load_or_standard(load)
     else:
         motion |= {"vertical": vertical} if load is None else {"vertical": vertical, "load": load}
-    found = solver_for(pair, normal, tangential).run(motion, rotation=way.turned, friction=surface.law())
+    turned = -way.begin / place.radius if way.turned is None else way.turned  # it falls when rolling forward
+    found = solver_for(pair, normal, tangential).run(motion, rotation=turned, friction=surface.law())
     deliver(
         {**found, "patches_of": found.patches()},
         show=lambda console: _show(found, console),

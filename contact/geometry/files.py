@@ -235,7 +235,7 @@ def inspect(
     if not fatal:
         findings += inspection.shape(points, content.resolution * scale)
         curve = inspection.repaired(points) if repair else points
-        require_plausible(curve, kind, path)
+        require_plausible(curve, kind, path, scale)
         findings += inspection.place(curve, kind)
         if repair:
             cured, dropped = {*FATAL, inspection.Fault.ZIGZAG, inspection.Fault.SPIKE}, len(measured) - len(curve)
