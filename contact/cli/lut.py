@@ -107,10 +107,12 @@ def lut(
         typer.echo(f"{plan.poses} poses, {1e-6 * plan.size:.2g} MB, about {plan.seconds:.2g} s", err=True)
         with progress_bar() as bar:
             found = lookup.lookup_table(pair, axes, tables=names, progress=bar, **options)
-        if found.untrusted == plan.poses:
-            raise ContactError(f"none of the {plan.poses} poses has a trustworthy solution; look at the ranges of --axis")
+        try:
+            errors = lookup.interpolation_error(pair, found, points=check, **options)
+        except ContactError:
+            none = f"none of {check} random poses between the breakpoints has a trustworthy solution"
+            raise ContactError(f"{none}; look at the ranges of --axis") from None
         found.write(out)
-        errors = lookup.interpolation_error(pair, found, points=check, **options)
 
     def show(console: Console) -> None:
         shown = Table(title=f"Linear interpolation on {check} random points", header_style="bold")
