@@ -40,7 +40,13 @@ _STEEPEST = np.radians(75.0)  # steeper parts cannot touch
 #: Slope of a tread from 15 mm inside the tape circle to 20 mm outside, and of a rail's top within 20 mm of its middle: the usual
 #: one, and by how much it may differ [rad]. Standard wheels have -1.4° to -2.9°, rails up to 1:20 inclined -2.5° to 2.3°.
 USUAL_SLOPE = {"wheel": np.radians(-2.0), "rail": 0.0}
-_TURNED = {"wheel": np.radians(4.5), "rail": np.radians(4.8)}
+TURNED_BY = {"wheel": np.radians(4.5), "rail": np.radians(4.8)}
+TREAD, TOP = (
+    (-0.015, 0.02),
+    (-0.02, 0.02),
+)  # where these slopes are taken, from the tape circle and from the rail's middle [m]
+GAUGE_DEPTH = 0.014  # of the gauge face below the top of a rail [m]
+TALLER = 1.2  # a wheel is not as many times higher than wide
 
 
 class Fault(StrEnum):
@@ -153,7 +159,9 @@ def place(points: Points, kind: Kind) -> list[Finding]:
     if turn := turned(points, kind):
         slope = np.degrees(turn + USUAL_SLOPE[kind])
         part, usual = ("tread", "it rises by 1 to 3°") if kind == "wheel" else ("top", "it is level within 3°")
-        seen = f"the {part} {'falls' if slope > 0.0 else 'rises'} by {abs(slope):.1f}° to the field side, usually {usual}"
+        seen = (
+            f"the {part} {'falls' if slope > 0.0 else 'rises'} by {abs(slope):.1f}° to the field side, usually {usual}"
+        )
         return [Finding(Fault.TURNED, seen, f"rotated({-turn:.3g}) turns the {kind} back", points[:0])]
     if kind == "rail":
         deeper = z[-1] - z[: np.argmin(z) + 1].max()
@@ -185,16 +193,16 @@ def turned(points: Points, kind: Kind) -> float:
     y, z = points.T
     if kind == "wheel":
         middle = y[np.argmax(z)] + TIP_FROM_TAPE if has_flange(points) else 0.0
-        low, high = middle - 0.015, middle + 0.02
+        low, high = (middle + end for end in TREAD)
     else:
-        gauge = np.flatnonzero((z > z.min() + 0.014) & (np.arange(z.size) < np.argmin(z)))
+        gauge = np.flatnonzero((z > z.min() + GAUGE_DEPTH) & (np.arange(z.size) < np.argmin(z)))
         middle = y[gauge[-1]] + CROWN_FROM_GAUGE if gauge.size else 0.5 * (y.min() + y.max())
-        low, high = middle - 0.02, middle + 0.02
+        low, high = (middle + end for end in TOP)
     inside = (y > low) & (y < high)
     if np.count_nonzero(inside) < 5 or np.ptp(y[inside]) < 0.8 * (high - low):
         return 0.0
     turn = float(np.arctan(np.polyfit(y[inside], z[inside], 1)[0])) - USUAL_SLOPE[kind]
-    return turn if abs(turn) > _TURNED[kind] else 0.0
+    return turn if abs(turn) > TURNED_BY[kind] else 0.0
 
 
 def has_flange(points: Points) -> bool:
@@ -237,7 +245,7 @@ def misplaced(points: Points, kind: Kind, unit: float = 0.0) -> tuple[str, str, 
     y, z = points.T
     width, height = float(np.ptp(y)), float(np.ptp(z))
     wide = NARROWEST <= width <= WIDEST
-    if NARROWEST <= height <= WIDEST and height > 1.2 * width and (kind == "wheel" or not wide):
+    if NARROWEST <= height <= WIDEST and height > TALLER * width and (kind == "wheel" or not wide):
         cure = "are its columns y and z swapped, or is it turned by 90°?"
         return f"the profile is {height:g} m high and {width:g} m wide", cure, cure
     if not wide:

@@ -100,5 +100,7 @@ def test_messages_of_the_command_line_name_no_argument_of_python():
 
 def test_reading_warns_of_a_turned_profile(tmp_path):
     turned = WHEEL.rotated(math.radians(5.0))
-    with pytest.warns(ProfileWarning, match=r"turned: the tread falls by 3.0°.*rotated\(-0.0865\) turns the wheel back"):
+    with pytest.warns(
+        ProfileWarning, match=r"turned: the tread falls by 3.0°.*rotated\(-0.0865\) turns the wheel back"
+    ):
         profile.read(miniprof(tmp_path / "turned.whl", turned.y, turned.z))
