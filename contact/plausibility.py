@@ -54,7 +54,7 @@ def doubt_value(name: str, value: float, called: str = "") -> bool:
 
 
 def doubt_values(name: str, values: NDArray[Any], called: str = "") -> bool:
-    """As `doubt_value`, of an array: one warning, of the first unusual value, with its place or as `called`, and their number."""
+    """As `doubt_value`, of an array: one warning, of the first unusual value with its place, and their number."""
     size, usual = np.abs(values), USUAL[name]
     unusual = (size > usual.largest) | ((size > 0.0) & (size < usual.least))
     if not unusual.any():

@@ -37,8 +37,8 @@ TANGENT_OF_NOISE = 1.2  # error of a spline's tangents over noise/spacing (docs/
 HEIGHT, SIDE = 1e-3, 6e-3  # offsets that are reported [m]
 _DEEPER = 4e-3  # by how much the field side of a rail may be deeper than its gauge side [m]
 _STEEPEST = np.radians(75.0)  # steeper parts cannot touch
-#: Slope of a tread from 15 mm inside the tape circle to 20 mm outside, and of a rail's top within 20 mm of its middle: the usual
-#: one, and by how much it may differ [rad]. Standard wheels have -1.4° to -2.9°, rails up to 1:20 inclined -2.5° to 2.3°.
+#: Slope of a tread from 15 mm inside the tape circle to 20 mm outside, and of a rail's top within 20 mm of its middle: the
+#: usual one, and by how much it may differ [rad]. Standard wheels have -1.4° to -2.9°, rails up to 1:20 inclined -2.5° to 2.3°.
 USUAL_SLOPE = {"wheel": np.radians(-2.0), "rail": 0.0}
 TURNED_BY = {"wheel": np.radians(4.5), "rail": np.radians(4.8)}
 TREAD, TOP = (
