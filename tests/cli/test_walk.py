@@ -92,7 +92,9 @@ def test_breakpoints_in_millimetres_are_named_as_they_were_typed(tmp_path):
 
 
 def test_messages_of_the_command_line_name_no_argument_of_python():
-    given = "load = 8e4: the contact patch reaches the end of the given separation; extend y; y = [0, 1] m (throw=False "
+    given = (
+        "load = 8e4: the contact patch reaches the end of the given separation; extend y; y = [0, 1] m (throw=False "
+    )
     said = in_options(f"{given}returns the solution with this status)", {})
     assert "throw=False" not in said
     assert "the contact patch reaches the end of a profile" in said
