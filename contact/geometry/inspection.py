@@ -140,7 +140,7 @@ def shape(points: Points, resolution: float = 0.0) -> list[Finding]:
         seen = f"{_count(bent.size)} with a corner of up to {largest:.0f}°, the first at y = {_mm(points[bent[0], 0])}"
         found.append(Finding(Fault.KINK, seen, "if they are not real, a smoothing rounds them", points[bent]))
     sigma, h = noise(points), float(np.median(chord))
-    if TANGENT_OF_NOISE * sigma > ROUGH * h:
+    if TANGENT_OF_NOISE * sigma > ROUGH * h > 0.0:
         rounded = 0.2 * resolution <= sigma <= 0.6 * resolution
         source = "from rounding: the" if rounded else "from the measurement, not from rounding: the"
         rounding = f" ({source} numbers are given to {1e3 * resolution:g} mm)" if resolution else ""

@@ -229,3 +229,12 @@ def test_pictures_after_a_repair_say_what_was_dropped(tmp_path):
     clean = profile.check(wheel_file(tmp_path / "clean.txt", WHEEL.y, WHEEL.z), **COLUMNS, repair=True)
     assert (clean.dropped, clean.repaired) == (0, ())
     assert "nothing found" in str(clean)
+
+
+def test_points_that_coincide_are_repaired_without_an_error(tmp_path):
+    """Found by random files: several scans in which most neighbours are one point."""
+    y, z = np.repeat(WHEEL.y, 3), np.repeat(WHEEL.z, 3)
+    found = profile.check(wheel_file(tmp_path / "wheel.txt", np.tile(y, 2), np.tile(z, 2)), **COLUMNS, repair=True)
+    assert found.profile is not None
+    assert found.profile.y.size == WHEEL.y.size
+    assert "repair dropped" in found.profile.note
