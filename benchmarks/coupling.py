@@ -83,9 +83,9 @@ def report() -> str:
     )
     return f"""# Coupling
 
-This page shows the largest communication step in milliseconds at which the wheelset of `models/wheelset` (S1002 on 60E1) and
-its two contacts are stable, measured by bisection on growth, and the energy that the coupling loses. It is written by
-`benchmarks/coupling.py` (`make coupling`). The schemes are those of `models/wheelset/master.py`.
+The largest communication step in milliseconds at which the wheelset of `models/wheelset` (S1002 on 60E1) and
+its two contacts are stable, by bisection on growth, and the energy that the coupling loses. Written by
+`make coupling`. The schemes are those of `models/wheelset/master.py`.
 
 ## Estimate
 
@@ -93,7 +93,7 @@ A creep force that is held over a step h while it damps a mass m, m dv/dt = -c v
 by Gauss–Seidel and v'' = v' - z v by Jacobi, with z = c h/m. They grow for z > 2 and z > 1. The iterated scheme (trapezoidal
 rule) gives v' = (1 - z/2)/(1 + z/2) v, which never grows.
 
-Three motions of a wheelset are damped this way, each with its own effective mass at the contacts: lateral motion with
+Three motions of a wheelset are damped this way, with their effective masses at the contacts: lateral motion with
 m = {lateral.mass:.0f} kg, yaw with I/b² = {yaw.mass:.0f} kg, the axle's spin with I_s/r² = {spin.mass:.0f} kg. The slopes of
 the contact at 54.5 kN are f22 = {f22:.1f} MN (lateral) and f11 = {f11:.1f} MN (longitudinal).
 
@@ -106,23 +106,22 @@ Measured limits are bold, with the motion that grows first. The other columns ar
   freely (with 1600 kg and f = 8 MN it gives 1 ms by Jacobi and 2 ms by Gauss–Seidel at 10 m/s).
 * The measured limit is {ratio("jacobi"):.2f} (Jacobi) and {ratio("gauss_seidel"):.2f} (Gauss–Seidel) of the estimate by the
   spin, at all speeds. A run counts as growing from a factor of two on, and bisection stops at 1 %.
-* The iterated scheme has no stability limit. Its limit is the search for the forces (1 mm off the centre): if the response to
-  a small change of force saturates within a step, {master.MOST_ROUNDS} rounds do not converge. Larger amplitudes lower this
-  limit. In single steps, especially in flange impacts, it happens at any step size; `History.rounds` shows it.
+* The iterated scheme has no stability limit, but if the response to a small change of force saturates within a step,
+  {master.MOST_ROUNDS} rounds do not converge (limit at 1 mm off the centre; lower at larger amplitudes, and in flange impacts
+  at any step). `History.rounds` shows it.
 
-With the spin held (I_s → ∞) lateral motion and yaw decide. The creep forces couple them, and they grow together a few
-per cent from the estimates:
+With the spin held (I_s → ∞) lateral motion and yaw grow together, a few per cent from the estimates:
 
 {table(header("lateral", "yaw"), limits(False, EXPLICIT))}
 ## Losses in one second of hunting
 
 The wheelset runs at {HUNTING:g} m/s and starts at 5 mm. The error is the largest difference of the lateral displacement from
 the iterated scheme at 0.125 ms. The residual is the largest energy that left the wheelset and was neither dissipated by creep
-nor stored in the contacts, in per cent of the dissipated energy. Evaluations are solutions of each contact per step.
+nor stored, in per cent of the dissipated energy. Evaluations are solutions of each contact per step.
 
 {table(["scheme", "h, ms", "error, mm", "residual, %", "evaluations"], [losses(h, s) for s, h in runs])}
-The residual of the iterated scheme does not vanish with the step. It comes from the energy stored in non-Hertzian contacts,
-which differs slightly from 2/5 of load times approach.
+The residual of the iterated scheme does not vanish with the step, because non-Hertzian contacts store not quite 2/5 of
+load times approach.
 """
 
 

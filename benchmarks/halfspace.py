@@ -191,29 +191,26 @@ CONTACT's elements are 0.2 mm wide. The column for 0.5 mm shows the error of a c
 {d}
 ## Known differences from CONTACT
 
-They were found by comparison with CONTACT's source and by variation of its settings.
-
 * CONTACT weakens the interaction of separate parts of a patch in one plane by a factor that depends on its settings D_COMB and
-  D_SEP. Therefore its load differs by 9 to 12 % from ours in two of 131 poses of a wheel on a rail. With D_COMB = 7.99 mm it
-  agrees with a complete half space there. The right wheel at 5 mm in the [Manchester benchmark](manchester.md) is such a case.
-* Its flash temperature counts the element's own share twice. The error is proportional to the square root of the element's
-  length. Ours agrees with the closed form.
+  D_SEP. Its load differs by 9 to 12 % from ours in two of 131 poses; with D_COMB = 7.99 mm it
+  agrees. The right wheel at 5 mm in the [Manchester benchmark](manchester.md) is such a case.
+* Its flash temperature counts the element's own share twice. Ours agrees with the
+  closed form.
 * Its KPEC, a fast normal method, may cut a strip deeper than the profiles overlap. At 0 mm in the
   [Manchester benchmark](manchester.md) this gives 443 MPa in one row at the edge of the patch, and 302 MPa with a cap.
 
 ## Time
 
-Times are the shortest of several runs in one thread on a shared machine. CONTACT needs 13.5 ms for the normal problem and 2.1 s
-for both problems on a 68 × 124 grid, and 2 ms and 47 ms on a 28 × 50 grid. These are times of its default tangential solver.
-Its solver GDsteady is faster: in another comparison at 0.2 mm the default took 3.9 s, GDsteady .46 s and ours .2 s.
+The shortest of several runs in one thread on a shared machine. CONTACT with its default tangential solver needs 13.5 ms for
+the normal problem and 2.1 s for both on a 68 × 124 grid, 2 ms and 47 ms on 28 × 50.
+In another comparison at 0.2 mm that solver took 3.9 s, its GDsteady .46 s and ours .2 s.
 
 {fine}
 {coarse}
 ## Order of convergence
 
-The table has the error of the force over μN against the limit of vanishing elements. The pressure is Hertz's, and the ellipse
-has n × n elements. The error is of first order. Under spin it depends on the point of the element at which the rigid slip is
-taken. The default is x + dx/6, as in CONTACT.
+The error of the force over μN against the limit of vanishing elements, Hertz's pressure, n × n elements. It is of first
+order. Under spin it depends on where in the element the rigid slip is taken; the default is x + dx/6, as in CONTACT.
 
 {order}"""
 

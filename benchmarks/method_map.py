@@ -58,16 +58,15 @@ PAGE = """# Accuracy and time of all methods
 
 Written by `python -m benchmarks.method_map --write docs`. {count} contacts: the most loaded patch of random poses of S1002
 on 60E1 (1:40), y from -8 to 8 mm, yaw up to 10 mrad, 20 to 160 kN a wheel, friction {friction:g}. Spin is that of the pose.
-Longitudinal and lateral creepage have random signs and sizes of .01 to 1 %, even in their logarithms. Every method gets the
-same separation, creepages and load, so that the search of the contact is not in time or error.
+Longitudinal and lateral creepage have random signs and sizes of .01 to 1 %, even in their logarithms. Every method gets
+the same separation, creepages and load.
 
 The reference is our element-wise half space, which agrees with CONTACT on the same grid to 6e-6 of friction times load
-([Half space](halfspace.md)). Its error falls with the size of the elements, so forces are extrapolated from {finer} × {finer}
-and {finest} × {finest} elements. Extrapolated from 160 and 240 instead, 24 of the contacts differ by .0003 in the mean and .002
-at most. Largest pressures are those of {finest} × {finest}. CONTACT itself cannot be run here; its time depends on its grid as
-that of the half space does. Time is processor time, the median over the contacts, of a call from Python that starts from
-nothing; the least of {repeats} calls for fast methods, one call for the half space. The machine was shared, which empties
-caches but is not counted otherwise.
+([Half space](halfspace.md)). Forces are extrapolated from {finer} × {finer} and {finest} × {finest} elements (from
+160 and 240 instead, 24 of the contacts differ by .0003 in the mean and .002 at most); largest pressures are
+those of {finest} × {finest}. CONTACT
+itself cannot be run here. Time is processor time, the median over the contacts, of a call from Python that starts from
+nothing; the least of {repeats} calls for fast methods, one call for the half space.
 
 ![Error of the force over time of one contact](proof/method_map.png)
 
@@ -76,17 +75,16 @@ caches but is not counted otherwise.
 
 * Of what is faster than the default ({default_us:.0f} µs, mean error {default:.2%}), the best with other methods is {best}
   with {left:.1%}. The default on 10 × 10 takes {coarse_us:.0f} µs and has {coarse_default:.2%}.
-* More strips and elements hardly help the default: {fine_default:.2%} on 40 × 40. Its pressures are right, so what is left is
+* More strips and elements hardly help the default: {fine_default:.2%} on 40 × 40. What is left is
   the error of its traction.
 * The normal problem bounds what a better tangential method gains: FASTSIM on the default's strips has {fastsim:.1%}, the mapped
   FaStrip on ANALYN's strips {analyn:.1%}.
 * A half space of {coarse} needs {times:.0f} times the time of the default for an error of {coarse_error:.2%}.
-* The default's slowest contacts lie far from its median: 1 % of them take more than {slow:.0f} µs. They start from nothing
-  here; in a run each starts from the last one ([Real time](real_time.md)).
+* 1 % of the default's contacts take more than {slow:.0f} µs from nothing; in a run each starts from the last one
+  ([Real time](real_time.md)).
 
-Not in the map, since their equations could not be read: KBTNH, MKP, INFCON, extended Kik-Piotrowski and neural surrogates. Two
-searches of stored web pages found papers on some of them, of which only the first page is stored. USETAB's place is
-taken by `table`, which holds our own half space's forces on ellipses.
+Not in the map, since their equations could not be read: KBTNH, MKP, INFCON, extended Kik-Piotrowski and neural surrogates.
+USETAB's place is taken by `table`, our own half space's forces on ellipses.
 """
 
 

@@ -34,23 +34,19 @@ PAGE = """# Real time
 Written by `python -m benchmarks.real_time --write docs`. The first wheelset of the Manchester vehicle runs {length:g} m at
 {speed:g} m/s, from straight track through a transition into a curve of 300 m, with irregularities in all channels. Its motion
 is recorded every millisecond, {recorded} steps. A host in C, `examples/c/real_time.c`, replays it: both wheels at every step,
-each solution starting from the last one. The machine had two cores and was shared with other work: {crowd:.0f} processes wanted
-them. Therefore times are those of the processor, except where the clock is named.
+each solution starting from the last one. The machine had two cores, which {crowd:.0f} processes wanted; times are
+those of the processor, except where the clock is named.
 
 ## As fast as possible
 
 {steps} steps as fast as possible, {turns} turns through the motion, with the default methods.
 
 {quantiles}
-A million steps with the library of commit 1ab1d2a, before march and pressure peak were changed: 166, 841 and 4105 µs of
-processor time; the algorithm's own (below) 152, 706 and 817 µs.
-
 ![Histogram of the time of a step](proof/real_time.png)
 
 ## What makes the largest
 
-The least time of a step over all turns is that of the algorithm. What a turn takes more is the machine's: interrupts, and
-caches that other processes have emptied. The first step of a turn is left out; it starts from the motion's other end.
+The least time of a step over all turns is that of the algorithm; what a turn takes more is the machine's.
 
 * Algorithm: median / 99.9 % / largest {own} µs.
 * Machine: the largest of all steps took {worst:.0f} µs, {excess:.0f} µs more than the least time of the same step.
@@ -61,22 +57,22 @@ caches that other processes have emptied. The first step of a turn is left out; 
 {patches}
 ## max_iterations as a cap
 
-The error is the largest difference of a force component from that with 1000 iterations, over friction times the mean load, in
-all steps and both wheels. "Not converged" is what the code of the answer tells the host, wheels and steps together. Times are
-the least of two turns. Methods without iterations are there for their times; the motion belongs to the default's stiffness.
+The error is the largest difference of a force component from that with 1000 iterations, over friction times the mean load.
+"Not converged" is what the code of the answer tells the host. Times are the least of two turns. Methods without iterations
+are there for their times.
 
 {caps}
 ## 1 kHz
 
 {real} steps at 1 kHz on one core, with the priority of a real-time process (`SCHED_FIFO`: {place}) and memory that is not
-swapped. A step is a miss if it ends after the next one should have begun, also if it was woken late. "Stolen" is the time that
-the host of this virtual machine gave to others meanwhile, on both cores; the processor's clock counts it as work.
+swapped. A step is a miss if it ends after the next one should have begun. "Stolen" is the time that
+the host of this virtual machine gave to others; the processor's clock counts it as work.
 
 {timed}
 ## In a host of your own
 
-* The algorithm needs less than 1 ms in every step, but this shared virtual machine does not give it in every step: a run
-  without a miss was not shown here for a whole minute. Take a machine of your own, a core for the process, and this host.
+* The algorithm needs less than 1 ms in every step, but this shared virtual machine does not give it in every step. Take a
+  machine of your own, and a core for the process.
 * A cap bounds the iterations. What it costs in accuracy stands above; read the code of every answer.
 * `wr_pair_solve` allocates no memory, takes no lock and calls nothing of the system.
 """

@@ -53,14 +53,14 @@ def doubt_value(name: str, value: float, called: str = "") -> bool:
     return doubt(called or name, value, usual.largest, usual.hint, least=usual.least)
 
 
-def doubt_values(name: str, values: NDArray[Any]) -> bool:
-    """As `doubt_value`, of an array: one warning, of the first unusual value, with their number."""
+def doubt_values(name: str, values: NDArray[Any], called: str = "") -> bool:
+    """As `doubt_value`, of an array: one warning, of the first unusual value with its place, and their number."""
     size, usual = np.abs(values), USUAL[name]
     unusual = (size > usual.largest) | ((size > 0.0) & (size < usual.least))
     if not unusual.any():
         return False
     where = tuple(map(int, np.unravel_index(int(np.argmax(unusual)), values.shape)))
-    called = f"{name}[{', '.join(map(str, where))}]" if where else name
+    called = called or (f"{name}[{', '.join(map(str, where))}]" if where else name)
     hint = f"{usual.hint} ({np.count_nonzero(unusual)} of {values.size} values)" if where else usual.hint
     return doubt(called, float(values[where]), usual.largest, hint, least=usual.least)
 

@@ -145,7 +145,17 @@ RULES = (
         "JUMP",
         "LOOPS",
     ),
-    *("MOST_SCANS", "RETURN", "ROUGH", "TANGENT_OF_NOISE", "HEIGHT", "SIDE"),
+    *(
+        "MOST_SCANS",
+        "RETURN",
+        "ROUGH",
+        "TANGENT_OF_NOISE",
+        "HEIGHT",
+        "SIDE",
+        "CROWN_FROM_GAUGE",
+        "GAUGE_DEPTH",
+        "TALLER",
+    ),
 )
 #: Width of the parabolas by which the page smooths noisy points [m], with weights (1 - t²)², and the largest number of points.
 WINDOW, MOST_POINTS = 5e-3, 3000
@@ -192,6 +202,9 @@ def rules() -> dict[str, Any]:
     return {
         **{name.lower(): float(getattr(inspection, name)) for name in RULES},
         "units": inspection.UNITS,
+        "usual_slope": {kind: float(slope) for kind, slope in inspection.USUAL_SLOPE.items()},
+        "turned_by": {kind: float(angle) for kind, angle in inspection.TURNED_BY.items()},
+        "slope_between": {"wheel": inspection.TREAD, "rail": inspection.TOP},
         "nearest": placing.NEAREST,
         "largest_file": files.LARGEST_FILE,
         "window": WINDOW,

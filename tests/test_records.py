@@ -3,7 +3,6 @@
 import copy
 import dataclasses
 import pickle
-import xml.etree.ElementTree as ElementTree
 
 import numpy as np
 import pytest
@@ -18,6 +17,7 @@ from contact.geometry.wheelset import Pair, Pose
 from contact.material import Thermal
 from contact.pair import WheelRailPair
 from contact.solution import Solution
+from tests.notebooks import drawn, parsed, words
 
 CREEPAGE = contact.Creepage(1e-3, -5e-4, 0.2)
 FIELDS = ("x", "y", "p", "qx", "qy", "sx", "sy", "stick", "dA")
@@ -63,28 +63,6 @@ def assert_same(a, b):
         value = getattr(a, each.name)
         if not isinstance(value, np.ndarray | tuple | contact.Strips):
             assert getattr(b, each.name) == value, each.name
-
-
-def parsed(html):
-    """Return the elements of HTML, which must be well-formed and without external references."""
-    for foreign in ("<script", "<img", "<link", "href", "url(", "@import"):
-        assert foreign not in html
-    return list(ElementTree.fromstring(f"<div>{html}</div>").iter())
-
-
-def words(html):
-    return " ".join(
-        "".join(element.itertext()) for element in parsed(html) if element.tag in ("td", "th", "caption", "div")
-    )
-
-
-def drawn(html, shape="polygon"):
-    """Return the corners of every polygon, or of every `shape`, in pixels."""
-    return [
-        np.array([point.split(",") for point in element.get("points").split()], dtype=np.float64)
-        for element in parsed(html)
-        if element.tag.endswith(shape)
-    ]
 
 
 # Solution

@@ -20,8 +20,7 @@ CASES = (
 
 NOT_FOUND = """## Not found
 
-Looked for in stored copies of web pages (only their beginnings), documentation, source code and threads of public repositories,
-in November 2026. Numbers that were not found are not here.
+Looked for in stored copies of web pages (only their beginnings), documentation, code and threads, in November 2026.
 
 | wanted | found |
 | --- | --- |

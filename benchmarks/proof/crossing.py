@@ -93,10 +93,9 @@ def section() -> tuple[str, str]:
     strips = max(largest[sweep, "strip_halfspace"][1] for sweep in smooth)
     text = f"""## Crossings
 
-No numbers of the comparison of programs on switches and crossings (HAL hal-04225767) or of Bezin's benchmark were found; see
-[where was looked](#not-found). So this is CONTACT 25.1 along three crossings (our reference set F, 10 to 60 kN; friction .3,
-S1002 with 460 mm). The force is the vector in track axes; errors are over its size. Heights are compared where the force is
-given. [Surfaces](../use/surfaces.md) has more on them. `python -m benchmarks.proof.crossing FOLDER` computes ours; the surfaces
+CONTACT 25.1 along three crossings (our reference set F, 10 to 60 kN; friction .3, S1002 with 460 mm; published numbers were
+[not found](#not-found)). Errors of the force vector are over its size; heights are compared where the force is
+given ([surfaces](../use/surfaces.md)). `python -m benchmarks.proof.crossing FOLDER` computes ours; the surfaces
 are CONTACT's and not in this repository.
 
 {table(head, rows)}
@@ -104,9 +103,8 @@ are CONTACT's and not in this repository.
 
 Verdict: on the nose and the measured crossing forces are within {measured:.1f} % by elements and {by_strips:.1f} % by the
 default method. The lateral force alone is up to {lateral:.1f} kN off on the measured crossing, since CONTACT's mean
-inclination of the rough nose is another. Largest pressures by elements are within {pressure:.1f} % there; where wing rail and
-nose begin together they depend on the elements at the edge of the nose. By strips they are up to {strips:.0f} % off on the
-measured crossing from 128 mm on, whose section is rough; `gap_error` and a warning say so.
+inclination of the rough nose is another. Largest pressures are within {pressure:.1f} % by elements, and up to
+{strips:.0f} % off by strips from 128 mm on, whose section is rough; `gap_error` and a warning say so.
 """
     return f"force within {measured:.1f} %, default method {by_strips:.1f} %", text
 

@@ -19,11 +19,11 @@ def section() -> tuple[str, str]:
     )
     text = f"""## Twin disc
 
-The heat and the temperature are published. An earlier session of this project read them in a public table and noted them
-in issue 35; they were not read again. The sizes are recalled: discs of {2e3 * twin_disc.RADIUS:g} mm diameter,
-{1e3 * twin_disc.WIDTH:g} mm wide, {1e-6 * twin_disc.PEAK:g} MPa, {60 * twin_disc.REVOLUTIONS:g} revolutions per minute.
-Ours takes the published heat, spreads it like Hertz's pressure over the line contact and uses the steel of
-[the constants](../understand/constants.md). It tests the step from heat to temperature, and neither friction nor creep forces.
+Heat and temperature are published (read by an earlier session, issue 35); the sizes are recalled:
+discs of {2e3 * twin_disc.RADIUS:g} mm diameter, {1e3 * twin_disc.WIDTH:g} mm wide, {1e-6 * twin_disc.PEAK:g} MPa,
+{60 * twin_disc.REVOLUTIONS:g} revolutions per minute.
+Ours spreads the published heat like Hertz's pressure over the line contact, in the steel of
+[the constants](../understand/constants.md). It tests neither friction nor creep forces.
 
 | slip [%] | heat [W] | published [K] | ours [K] | difference [%] |
 | ---: | ---: | ---: | ---: | ---: |
@@ -31,8 +31,8 @@ Ours takes the published heat, spreads it like Hertz's pressure over the line co
 
 ![Flash temperature over slip](proof/twin_disc.png)
 
-Verdict: the level is 10 to 20 % too high, and the difference is not constant. The thermal constants and the speed of
-the source are not known here, and both can move the level. The published ratio of temperature to heat is not constant either.
+Verdict: 10 to 20 % too high. The thermal constants and the speed of the source are not known; its ratio of temperature
+to heat is not constant either.
 """
     return f"{min(off):+.0f} to {max(off):+.0f} %", text
 

@@ -34,26 +34,23 @@ def section() -> tuple[str, str]:
     text = f"""## Locomotive traction
 
 A wheel under {1e-3 * traction.LOAD:g} kN with an elliptic patch, a/b = .5, at {traction.SPEED:g} m/s; friction
-{traction.FRICTION:g}, constant or falling linearly by .19 over 1200 or 400 K. All inputs, also the thermal ones, were read in
-`testbank/examples_temp/euro_tractcurv.inp` of github eve70a/CONTACT (commit 424e4e6): they are the steel of
-[the constants](../understand/constants.md). CONTACT's answers were read by an earlier session in the same test bank and
-noted in issue 35.
+{traction.FRICTION:g}, constant or falling linearly by .19 over 1200 or 400 K. Inputs are those of
+`testbank/examples_temp/euro_tractcurv.inp` of github eve70a/CONTACT (commit 424e4e6), the steel of
+[the constants](../understand/constants.md); CONTACT's answers those of the same test bank (issue 35).
 
 {chr(10).join(rises)}
 
 CONTACT counts the heat of the element itself twice (`src/m_temperature.f90`: its share is 2 √(dx/2) where the others have
-differences of square roots). The excess falls with the square root of the element. On its 40 elements along the patch it is
-11 %. Our half space on the same elements, with the same count, gives all digits of CONTACT's numbers.
+differences of square roots), 11 % on its 40 elements. Our half space with the same count gives all its digits.
 
 {chr(10).join(forces)}
 
-"Heat of CONTACT" is a heat capacity smaller by 1.252, with which the rise at 25 % is CONTACT's. It stands for that count in the
-friction.
+"Heat of CONTACT" is a heat capacity smaller by 1.252, with which the rise at 25 % is CONTACT's.
 
 ![Traction over slip](proof/locomotive.png)
 
-Verdict: the rises are those of CONTACT once its count is known, and the forces then are within {largest["fitted"]:.1f} %. With
-the right count they are up to {largest["ours"]:.0f} % higher where the friction falls most; that difference is CONTACT's. With
+Verdict: with CONTACT's count the rises are its own and the forces within {largest["fitted"]:.1f} %; with
+the right count they are up to {largest["ours"]:.0f} % higher where the friction falls most. With
 constant friction the force at .2 % slip, the only one that is not trivial, is .4 % low.
 """
     return f"forces within {largest['fitted']:.1f} %, rises within .5 %", text

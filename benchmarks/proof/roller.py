@@ -31,15 +31,15 @@ def section() -> tuple[str, str]:
 A wheel of 711 mm on a roller of 1600 mm, both with profiles as measured, dry, friction {roller_rig.FRICTION:g}, with an
 elastic layer of 50 µm and 8200 MPa between them; the wheelset yaws. CONTACT's example `testbank/dry_10mph_13750lbs` (github
 eve70a/CONTACT, commits 424e4e6 and 4cc09ad), its first three cases. Total forces of the first: Fx -1307, Fy -1252,
-Fz 67 270 N. Ours takes CONTACT's contact point, creepages and normal force; it tests gap, pressure, layer and traction, not the
-search on a rig, which [set N](contact_features.md) tests. Our half space on elements of .4 mm, CONTACT's.
+Fz 67 270 N. Our half space, on CONTACT's elements of .4 mm, takes its contact point, creepages and normal force
+([set N](contact_features.md) tests the search).
 
 {table(["yaw and normal force", "Fx [N]", "Fs [N]", "Mn [N mm]", "approach [mm]", "pressure [MPa]"], rows)}
 ![Pressure of the first case](proof/roller_rig.png)
 
 Verdict: forces within {largest:.1f} % of friction times load, approaches within .6 %, largest pressures within 1.7 %.
-CONTACT warns that its spline leaves the measured points by up to .2 mm; ours goes through the points near the patch.
-The elements are coarse: on .2 mm the lateral force at 4 mrad is {moved:.1f} % lower.
+CONTACT warns that its spline leaves the measured points by up to .2 mm. On elements of .2 mm the lateral force at 4 mrad
+is {moved:.1f} % lower.
 """
     return f"forces within {largest:.1f} % of μN", text
 

@@ -270,19 +270,17 @@ def page() -> str:
     rows = [[where, says, ours(), verdict] for where, says, ours, verdict in CLAIMS]
     return f"""# Agreement with the thesis
 
-`make proof` writes this page. Its left half was read in a transcript of the thesis' summary that came after the other pages
-were written. The transcript has no figures, so curves cannot be compared point by point, and Papers A to E are not in it.
-These are all numbers and claims in its text that can be computed. Errors are those of the force over friction times load where
-nothing else is said; ellipses are those of set A, a/b from .2 to 5, against CONTACT.
+`make proof` writes this page: all numbers and claims in a transcript of the thesis' summary that can be computed. It has
+neither figures nor Papers A to E. Errors are of the force over friction times load; ellipses are those of set A, a/b from
+.2 to 5, against CONTACT.
 
 {table(["section", "the thesis says", "ours", "verdict"], rows)}
-Two claims are of time. FASTSIM is said to be about 1000 times and ANALYN about 300 times faster than CONTACT (4.6, 9.2); the
-[map of methods](../../check/method_map.md) has our times, where they can be read for any accuracy.
+FASTSIM is said to be about 1000 times and ANALYN about 300 times faster than CONTACT (4.6, 9.2); the
+[map of methods](../../check/method_map.md) has our times.
 
 ## What the figures show
 
-The pages before this one were written without the thesis, and call their figures "in the place of". These are the subjects of
-the thesis' figures, read in its captions:
+Subjects of the thesis' figures, from its captions:
 
 {table(["figure", "subject", "our page"], FIGURES)}"""
 

@@ -26,7 +26,14 @@ _HEADINGS = ("at\nmm", "z\nmm", "patch", "x\nmm", "y\nmm", "N\nkN", "Fx\nkN", "F
 Begin = Annotated[float, on_way("--from", help="first station of the axle in m")]
 End = Annotated[float, on_way("--to", help="last station in m")]
 Count = Annotated[int, on_way("--points", help="number of stations", min=1)]
-Turned = Annotated[float, on_way("--angle", help="angle of the wheel at the first station in rad")]
+Turned = Annotated[
+    float | None,
+    on_way(
+        "--angle",
+        help="angle of the wheel at the first station in rad; default: 0 at station 0, where a flat lies",
+        show_default=False,
+    ),
+]
 Rolling = Annotated[str | None, opt.in_method("--tangential", help="tangential method; default that of --normal")]
 Origin = Annotated[
     tuple[float, float] | None,
@@ -62,7 +69,7 @@ class Stations:
     begin: Begin = 0.0
     end: End = 0.2
     points: Count = 21
-    turned: Turned = 0.0
+    turned: Turned = None
 
 
 @reported
@@ -104,7 +111,8 @@ def along(
         motion["load"] = load_or_standard(load)
     else:
         motion |= {"vertical": vertical} if load is None else {"vertical": vertical, "load": load}
-    found = solver_for(pair, normal, tangential).run(motion, rotation=way.turned, friction=surface.law())
+    turned = -way.begin / place.radius if way.turned is None else way.turned  # it falls when rolling forward
+    found = solver_for(pair, normal, tangential).run(motion, rotation=turned, friction=surface.law())
     deliver(
         {**found, "patches_of": found.patches()},
         show=lambda console: _show(found, console),

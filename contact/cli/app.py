@@ -125,6 +125,7 @@ def patch(
     Without --out it writes patch.png. Example:  contact patch --y 6e-3 --yaw 2e-3 --out flange.png
     """
     drawing()
+    prepare(out)
     case = place.position(reading, side)
     options = {"friction": surface.law(gauge_friction), "material": arguments.material(pressure_limit)}
     options |= {"normal": normal, "tangential": tangential, "conformal": conformal, **PICTURE_RESOLUTION}

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import warnings
 from dataclasses import asdict
 from functools import partial
 from pathlib import Path
@@ -17,13 +18,19 @@ from contact.cli import options as opt
 from contact.cli.output import deliver, reported
 from contact.cli.problem import load_or_standard
 from contact.cli.progress import progress_bar
-from contact.errors import ContactError
+from contact.errors import ContactError, PlausibilityWarning
 from contact.geometry.wheelset import Pair
 from contact.pair import WheelRailPair
+from contact.plausibility import doubt_values
 from contact.registry import DEFAULT_NORMAL, DEFAULT_TANGENTIAL
 from contact.study import lookup
 
 in_axes = partial(typer.Option, rich_help_panel="Axes of the tables")
+#: Axis → its name among the usual values.
+_USUAL = {
+    **{"y": "pose.y", "roll": "pose.roll", "yaw": "pose.yaw", "load": "wheel load", "speed": "speed"},
+    **{name: f"creepage.{name}" for name in ("longitudinal", "lateral", "spin")},
+}
 Axis = Annotated[
     list[str] | None,
     in_axes(
@@ -86,12 +93,21 @@ def lut(
     options |= {} if "load" in axes else {"load": load_or_standard(load)}
     options |= {} if "speed" in axes else {"speed": speed}
     names = tuple(table or lookup.DEFAULT_TABLES)
-    plan = lookup.estimate(pair, axes, tables=len(names), **options)
-    typer.echo(f"{plan.poses} poses, {1e-6 * plan.size:.2g} MB, about {plan.seconds:.2g} s", err=True)
-    with progress_bar() as bar:
-        found = lookup.lookup_table(pair, axes, tables=names, progress=bar, **options)
-    found.write(out)
-    errors = lookup.interpolation_error(pair, found, points=check, **options)
+    for name, points in axes.items():
+        if name in _USUAL:
+            doubt_values(_USUAL[name], points, f"--axis {name}")
+    with warnings.catch_warnings():  # the breakpoints were looked at above, under the name that was typed
+        warnings.simplefilter("ignore", PlausibilityWarning)
+        plan = lookup.estimate(pair, axes, tables=len(names), **options)
+        typer.echo(f"{plan.poses} poses, {1e-6 * plan.size:.2g} MB, about {plan.seconds:.2g} s", err=True)
+        with progress_bar() as bar:
+            found = lookup.lookup_table(pair, axes, tables=names, progress=bar, **options)
+        try:
+            errors = lookup.interpolation_error(pair, found, points=check, **options)
+        except ContactError:
+            none = f"none of {check} random poses between the breakpoints has a trustworthy solution"
+            raise ContactError(f"{none}; look at the ranges of --axis") from None
+        found.write(out)
 
     def show(console: Console) -> None:
         shown = Table(title=f"Linear interpolation on {check} random points", header_style="bold")

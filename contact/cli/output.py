@@ -60,6 +60,10 @@ def reported(command: Command) -> Command:
 def in_options(text: str, given: Mapping[str, Any]) -> str:
     """Return a message with the options of the command line in place of names of Python. `given` are the command's inputs."""
     text = re.sub(r"\brepair=True", "--profile-repair", text)
+    text = re.sub(r"\brotated\((\S+)\) turns the wheel", r"--profile-rotation \1 0 turns the wheel", text)
+    text = re.sub(r"\brotated\((\S+)\) turns the rail", r"--profile-rotation 0 \1 turns the rail", text)
+    text = text.replace(" (throw=False returns the solution with this status)", "")
+    text = text.replace("patch reaches the end of the given separation; extend y", "patch reaches the end of a profile")
     text = re.sub(r"\b(zero|smoothing|wavelength)='?([\w.+-]+)'?", r"--profile-\1 \2", text)
     if found := re.search(r"\b(?:(?:kind|unit|side) = None(?:, )?)+: ", text):
         missing = [f"--profile-{name}" for name in re.findall(r"(\w+) = None", found[0])]

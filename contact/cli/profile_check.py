@@ -84,4 +84,8 @@ def _plain(found: Any) -> dict[str, Any]:
         {"fault": finding.fault.value, "seen": finding.seen, "cure": finding.cure, "at": finding.at}
         for finding in found.findings
     ]
-    return {"file": found.name, "kind": found.kind, "points": len(found.points), "findings": findings}
+    repaired = found.profile.note if found.profile else ""
+    return {
+        **{"file": found.name, "kind": found.kind, "points": len(found.points), "findings": findings},
+        **{"repaired": repaired, "dropped": found.dropped},
+    }

@@ -21,7 +21,7 @@ from __future__ import annotations
 
 import warnings
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from os import PathLike
 from pathlib import Path
 from typing import Any, Literal
@@ -58,6 +58,10 @@ class Inspection:
     findings : tuple of contact.geometry.inspection.Finding
     profile : Profile or None
         The profile that `read` gives; None if the points are no curve.
+    repaired : tuple of contact.geometry.inspection.Finding
+        What `repair` has cured.
+    dropped : int
+        Number of points of the file that `repair` has left out.
     """
 
     name: str
@@ -65,12 +69,17 @@ class Inspection:
     points: Points
     findings: tuple[Finding, ...]
     profile: Profile | None
+    repaired: tuple[Finding, ...] = ()
+    dropped: int = 0
+
+    @property
+    def told(self) -> list[str]:
+        """What was found, and what was repaired, a line each."""
+        return [*map(str, self.findings), *([self.profile.note] if self.profile and self.profile.note else [])]
 
     def __str__(self) -> str:
         head = f"{self.name}: {self.kind}, {len(self.points)} points"
-        return "\n".join(
-            [head, *(f"  {finding}" for finding in self.findings)] if self.findings else [f"{head}, nothing found"]
-        )
+        return "\n".join([head, *(f"  {line}" for line in self.told)] if self.told else [f"{head}, nothing found"])
 
 
 def read(
@@ -221,18 +230,24 @@ def inspect(
     disorder = inspection.order(measured)
     fatal = bool(disorder) and not repair
     points = placed(inspection.repaired(measured) if disorder and repair else measured, content, kind, path, zero)
-    findings = [*disorder]
-    result = None
+    findings, dropped = [*disorder], 0
+    cured: set[inspection.Fault] = set()
     if not fatal:
         findings += inspection.shape(points, content.resolution * scale)
         curve = inspection.repaired(points) if repair else points
-        require_plausible(curve, kind, path)
+        require_plausible(curve, kind, path, scale)
         findings += inspection.place(curve, kind)
-        result = _profile(curve, kind, path.stem, smoothing, wavelength)
-        cured = {inspection.Fault.NOISE} if smoothing or wavelength else set()
-        cured |= {*FATAL, inspection.Fault.ZIGZAG, inspection.Fault.SPIKE} if repair else set()
+        if repair:
+            cured, dropped = {*FATAL, inspection.Fault.ZIGZAG, inspection.Fault.SPIKE}, len(measured) - len(curve)
+        repaired = tuple(finding for finding in findings if finding.fault in cured)
+        if repair and disorder:  # spikes were dropped before the points were placed
+            hidden = inspection.shape(inspection.in_order(measured))
+            repaired += tuple(replace(finding, at=points[:0]) for finding in hidden if finding.fault in cured)
+        result = _profile(curve, kind, path.stem, smoothing, wavelength, _note(repaired, dropped, len(measured)))
+        cured |= {inspection.Fault.NOISE} if smoothing or wavelength else set()
         findings = [finding for finding in findings if finding.fault not in cured]
-    return Inspection(path.name, kind, points, tuple(findings), result)
+        return Inspection(path.name, kind, points, tuple(findings), result, repaired, dropped)
+    return Inspection(path.name, kind, points, tuple(findings), None)
 
 
 def inspect_profile(given: Profile) -> Inspection:
@@ -303,11 +318,25 @@ def lines_of(path: Path) -> Sequence[str]:
         raise ContactError(f"path = {str(path)!r} cannot be read: {error.strerror}") from None
 
 
-def _profile(points: Points, kind: Kind, name: str, smoothing: float | None, wavelength: float | None) -> Profile:
+def _note(repaired: tuple[Finding, ...], dropped: int, rows: int) -> str:
+    """Return what a repair has done, for messages and captions; empty if nothing."""
+    if not repaired:
+        return ""
+    faults = ", ".join(finding.fault.value for finding in repaired)
+    return (
+        f"repair dropped {dropped} of {rows} points ({faults})"
+        if dropped
+        else f"repair put the rows in order ({faults})"
+    )
+
+
+def _profile(
+    points: Points, kind: Kind, name: str, smoothing: float | None, wavelength: float | None, note: str
+) -> Profile:
     y, z = points.T
     angle = None
     if smoothing is not None:
         y, z, angle = smoothed(y, z, smoothing)
     elif wavelength is not None:
         y, z, angle = filtered(y, z, wavelength)
-    return Profile(kind, y, z, angle, name)  # type: ignore[arg-type]
+    return Profile(kind, y, z, angle, name, note)  # type: ignore[arg-type]

@@ -37,6 +37,16 @@ TANGENT_OF_NOISE = 1.2  # error of a spline's tangents over noise/spacing (docs/
 HEIGHT, SIDE = 1e-3, 6e-3  # offsets that are reported [m]
 _DEEPER = 4e-3  # by how much the field side of a rail may be deeper than its gauge side [m]
 _STEEPEST = np.radians(75.0)  # steeper parts cannot touch
+#: Slope of a tread from 15 mm inside the tape circle to 20 mm outside, and of a rail's top within 20 mm of its middle: the
+#: usual one, and by how much it may differ [rad]. Standard wheels have -1.4° to -2.9°, rails up to 1:20 inclined -2.5° to 2.3°.
+USUAL_SLOPE = {"wheel": np.radians(-2.0), "rail": 0.0}
+TURNED_BY = {"wheel": np.radians(4.5), "rail": np.radians(4.8)}
+TREAD, TOP = (
+    (-0.015, 0.02),
+    (-0.02, 0.02),
+)  # where these slopes are taken, from the tape circle and from the rail's middle [m]
+GAUGE_DEPTH = 0.014  # of the gauge face below the top of a rail [m]
+TALLER = 1.2  # a wheel is not as many times higher than wide
 
 
 class Fault(StrEnum):
@@ -52,6 +62,7 @@ class Fault(StrEnum):
     NOISE = "noise"
     HEIGHT = "offset of height"
     SIDE = "offset to the side"
+    TURNED = "turned"
 
 
 #: Faults with which the points are no curve: `read` refuses them unless it may repair them.
@@ -129,7 +140,7 @@ def shape(points: Points, resolution: float = 0.0) -> list[Finding]:
         seen = f"{_count(bent.size)} with a corner of up to {largest:.0f}°, the first at y = {_mm(points[bent[0], 0])}"
         found.append(Finding(Fault.KINK, seen, "if they are not real, a smoothing rounds them", points[bent]))
     sigma, h = noise(points), float(np.median(chord))
-    if TANGENT_OF_NOISE * sigma > ROUGH * h:
+    if TANGENT_OF_NOISE * sigma > ROUGH * h > 0.0:
         rounded = 0.2 * resolution <= sigma <= 0.6 * resolution
         source = "from rounding: the" if rounded else "from the measurement, not from rounding: the"
         rounding = f" ({source} numbers are given to {1e3 * resolution:g} mm)" if resolution else ""
@@ -142,9 +153,16 @@ def shape(points: Points, resolution: float = 0.0) -> list[Finding]:
 
 
 def place(points: Points, kind: Kind) -> list[Finding]:
-    """Return offsets of height and side from the zero that this library expects, for points in the right-side convention."""
+    """Return a turn, and offsets from the zero that this library expects, for points in the right-side convention."""
     y, z = points.T
-    found = []
+    found: list[Finding] = []
+    if turn := turned(points, kind):
+        slope = np.degrees(turn + USUAL_SLOPE[kind])
+        part, usual = ("tread", "it rises by 1 to 3°") if kind == "wheel" else ("top", "it is level within 3°")
+        seen = (
+            f"the {part} {'falls' if slope > 0.0 else 'rises'} by {abs(slope):.1f}° to the field side, usually {usual}"
+        )
+        return [Finding(Fault.TURNED, seen, f"rotated({-turn:.3g}) turns the {kind} back", points[:0])]
     if kind == "rail":
         deeper = z[-1] - z[: np.argmin(z) + 1].max()
         if deeper > _DEEPER:
@@ -168,6 +186,23 @@ def place(points: Points, kind: Kind) -> list[Finding]:
         seen = f"the tread at the tape circle lies at z = {_mm(tread)}; the wheel's radius becomes that much {change}"
         found.append(Finding(Fault.HEIGHT, seen, "set zero='shape'", np.array([[0.0, tread]])))
     return found
+
+
+def turned(points: Points, kind: Kind) -> float:
+    """Return by how much a profile is turned about x [rad], positive from y towards z; 0 if it lies as usual."""
+    y, z = points.T
+    if kind == "wheel":
+        middle = y[np.argmax(z)] + TIP_FROM_TAPE if has_flange(points) else 0.0
+        low, high = (middle + end for end in TREAD)
+    else:
+        gauge = np.flatnonzero((z > z.min() + GAUGE_DEPTH) & (np.arange(z.size) < np.argmin(z)))
+        middle = y[gauge[-1]] + CROWN_FROM_GAUGE if gauge.size else 0.5 * (y.min() + y.max())
+        low, high = (middle + end for end in TOP)
+    inside = (y > low) & (y < high)
+    if np.count_nonzero(inside) < 5 or np.ptp(y[inside]) < 0.8 * (high - low):
+        return 0.0
+    turn = float(np.arctan(np.polyfit(y[inside], z[inside], 1)[0])) - USUAL_SLOPE[kind]
+    return turn if abs(turn) > TURNED_BY[kind] else 0.0
 
 
 def has_flange(points: Points) -> bool:
@@ -202,13 +237,21 @@ def _appearance(points: Points) -> tuple[Kind | None, bool]:
     return None, True
 
 
-def misplaced(points: Points, kind: Kind) -> tuple[str, str, str] | None:
-    """Return what is wrong with unit, kind, direction or side of a profile, the cure of a file, and that of arrays; or None."""
+def misplaced(points: Points, kind: Kind, unit: float = 0.0) -> tuple[str, str, str] | None:
+    """Return what is wrong with unit, kind, direction or side of a profile, the cure of a file, and that of arrays; or None.
+
+    `unit` is that in which the file was read [m]. It tells which other one fits.
+    """
     y, z = points.T
-    width = float(np.ptp(y))
-    if not NARROWEST <= width <= WIDEST:
+    width, height = float(np.ptp(y)), float(np.ptp(z))
+    wide = NARROWEST <= width <= WIDEST
+    if NARROWEST <= height <= WIDEST and height > TALLER * width and (kind == "wheel" or not wide):
+        cure = "are its columns y and z swapped, or is it turned by 90°?"
+        return f"the profile is {height:g} m high and {width:g} m wide", cure, cure
+    if not wide:
         seen = f"the profile is {width:g} m wide, outside the range [{NARROWEST:g}, {WIDEST:g}] of wheels and rails"
-        return seen, f"set unit to {' or '.join(map(repr, UNITS))}", "the unit is m"
+        fitting = [name for name, size in UNITS.items() if unit and NARROWEST <= width * size / unit <= WIDEST]
+        return seen, f"set unit to {' or '.join(map(repr, fitting or UNITS))}", "the unit is m"
     shape, down = _appearance(points)
     if shape not in (None, kind):
         seen = "a wheel: a flange near one end" if shape == "wheel" else "a rail: a crown in the middle"
@@ -297,7 +340,16 @@ def noise(points: Points) -> float:
 
 
 def repaired(points: Points) -> Points:
-    """Return the points as one scan in order, without back steps and spikes.
+    """Return the points as one scan in order (`in_order`), without back steps and spikes."""
+    points = in_order(points)
+    for faulty in (spikes, backward, spikes):
+        while faulty(points).any() and len(points) > 9:
+            points = points[~faulty(points)]
+    return points
+
+
+def in_order(points: Points) -> Points:
+    """Return the points as one scan in order.
 
     Unsorted rows are joined from an end of the profile, each to its nearest neighbour. Of several scans the one with the
     most points is kept, of a scan there and back the longer way.
@@ -310,9 +362,6 @@ def repaired(points: Points) -> Points:
     turn = turning(points)
     if turn:
         points = points[: turn + 1] if turn + 1 >= len(points) - turn else points[turn:]
-    for faulty in (spikes, backward, spikes):
-        while faulty(points).any() and len(points) > 9:
-            points = points[~faulty(points)]
     return points
 
 

@@ -41,10 +41,10 @@ def placed(points: Points, content: Content, kind: Kind, path: Path, zero: str |
     return points - _origin(points, kind, path) if zero == "shape" else points
 
 
-def require_plausible(points: Points, kind: Kind, path: Path) -> None:
+def require_plausible(points: Points, kind: Kind, path: Path, unit: float) -> None:
     """Raise a ContactError for an implausible width, the shape of the other kind, a profile upside down, or a flange on the
-    wrong side."""
-    if fault := inspection.misplaced(points, kind):
+    wrong side. `unit` is that of the file [m]."""
+    if fault := inspection.misplaced(points, kind, unit):
         seen, cure, _ = fault
         raise ContactError(f"path = {str(path)!r}: {seen}; {cure}")
 

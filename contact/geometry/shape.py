@@ -37,6 +37,8 @@ class Profile:
         Angle of the tangent, tan(angle) = dz/dy [rad]. Default: the tangents of a cubic spline over the chord length.
     name : str
         Name in plots and messages.
+    note : str
+        What was done to the points when they were read, as a caption of pictures.
 
     Raises
     ------
@@ -54,6 +56,7 @@ class Profile:
     z: Array
     angle: Array = field(default=None, repr=False)  # type: ignore[arg-type]
     name: str = ""
+    note: str = field(default="", repr=False)
 
     def __post_init__(self) -> None:
         if self.kind not in ("wheel", "rail"):
@@ -81,7 +84,9 @@ class Profile:
     def rotated(self, roll: float) -> Profile:
         """Return the profile rotated about the x axis through its origin by `roll` [rad], positive from y towards z."""
         c, s = math.cos(require_number("roll", roll, -1.0, 1.0)), math.sin(roll)
-        return Profile(self.kind, c * self.y - s * self.z, s * self.y + c * self.z, self.angle + roll, self.name)
+        return Profile(
+            self.kind, c * self.y - s * self.z, s * self.y + c * self.z, self.angle + roll, self.name, self.note
+        )
 
     def plot(self, *others: Profile) -> Any:
         """Return a figure of the outline, its tangent and its curvature, with `others` for comparison (matplotlib's Figure)."""
@@ -93,7 +98,8 @@ class Profile:
         labels = "y, to the field side [mm]", "−z, up [mm]"
         drawn = Sketch((y.min(), y.max()), (up.min(), up.max()), labels, f"outline of the {self.kind}", equal=True)
         drawn.curve(y, up)
-        return f"{drawn.svg()}<div>{escape(repr(self))}</div>"
+        told = f"{self!r}; {self.note}" if self.note else repr(self)
+        return f"{drawn.svg()}<div>{escape(told)}</div>"
 
     def __repr__(self) -> str:
         name = f"{self.name!r}, " if self.name else ""

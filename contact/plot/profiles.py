@@ -30,14 +30,14 @@ def profile_check(found: Inspection) -> Figure:
     -------
     Figure
     """
-    lines = [line for finding in found.findings for line in _wrapped(str(finding))] or ["nothing found"]
+    lines = [line for told in found.told for line in _wrapped(told)] or ["nothing found"]
     with style():
         figure = Figure(figsize=(7.4, 6.4 + 0.17 * len(lines)), dpi=DPI, layout="constrained")
         top, middle, bottom = figure.subplots(3, 1, sharex=True, height_ratios=[1.4, 1.0, 1.0])
         top.plot(*(MM * found.points.T), color=FAINT, lw=0.0, marker=".", ms=2.5, label="measured points")
         if found.profile is not None:
             _draw(found.profile, (top, middle, bottom), LINES[0], "profile")
-        for k, finding in enumerate(found.findings):
+        for k, finding in enumerate((*found.findings, *found.repaired)):
             if len(finding.at):
                 colour = LINES[1 + k % (len(LINES) - 1)]
                 top.plot(
@@ -47,7 +47,7 @@ def profile_check(found: Inspection) -> Figure:
                     marker="o",
                     ms=7.0,
                     mfc="none",
-                    label=finding.fault.value,
+                    label=finding.fault.value + (", dropped" if k >= len(found.findings) else ""),
                 )
         top.set_title(f"{found.name}: {found.kind}, {len(found.points)} points", loc="left", color=INK)
         _label(top, middle, bottom)
@@ -57,12 +57,15 @@ def profile_check(found: Inspection) -> Figure:
 
 def profiles(*shown: Profile) -> Figure:
     """Draw outlines, tangents and curvatures of one or several profiles."""
+    lines = [line for one in shown if one.note for line in _wrapped(f"{one.name or one.kind}: {one.note}")]
     with style():
-        figure = Figure(figsize=(7.4, 6.4), dpi=DPI, layout="constrained")
+        figure = Figure(figsize=(7.4, 6.4 + 0.17 * len(lines)), dpi=DPI, layout="constrained")
         axes = figure.subplots(3, 1, sharex=True, height_ratios=[1.4, 1.0, 1.0])
         for k, one in enumerate(shown):
             _draw(one, axes, LINES[k % len(LINES)], one.name or one.kind)
         _label(*axes)
+        if lines:
+            figure.supxlabel("\n".join(lines), x=0.02, ha="left", fontsize=8.0, color=INK)
     return figure
 
 

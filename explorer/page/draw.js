@@ -8,7 +8,9 @@ const COLOURS = Array.from({ length: 256 }, (_, i) => {
   const t = i / 255 * (VIRIDIS.length - 1), k = Math.min(VIRIDIS.length - 2, Math.floor(t));
   return VIRIDIS[k].map((c, j) => Math.round(c + (VIRIDIS[k + 1][j] - c) * (t - k)));
 });
-const colour = t => COLOURS[Math.max(0, Math.min(255, Math.round(255 * t)))];
+/* The same as pixels of an image, opaque; byte 3 is the opacity. */
+const pixel = ([red, green, blue]) => (red | green << 8 | blue << 16 | 255 << 24) >>> 0;
+const PIXELS = Uint32Array.from(COLOURS, pixel);
 
 /* Colours of the page, which follow light and dark. The browser is asked once for each theme, not once for each stroke. */
 const inks = {};
@@ -47,28 +49,48 @@ const short = (value, digits) => Number(value.toPrecision(digits)).toString();
 
 const plain = (value, by) => Number(value.toFixed(Math.max(0, 1 - Math.floor(Math.log10(by) + 1e-9)))).toString();
 
-/* Place the rail in the track: turned by its inclination, its top at z = 0, the gauge at its depth. Return nodes [y, z]. */
-function railNodes(points, solver) {
-  const n = points[0], turn = -Math.atan(solver.get("rail.inclination")), c = Math.cos(turn), s = Math.sin(turn), nodes = [];
-  for (let i = 0; i < n; i++) nodes.push([c * points[1 + i] - s * points[1 + n + i], s * points[1 + i] + c * points[1 + n + i]]);
-  const top = Math.min(...nodes.map(node => node[1])), depth = solver.get("track.gauge_point");
-  const crown = nodes.findIndex(node => node[1] === top);
-  let k = crown;
-  while (k > 0 && nodes[k][1] - top < depth) k--;
-  const [y0, z0] = nodes[k], [y1, z1] = nodes[k + 1];
-  const gauge = y0 + (y1 - y0) * (depth + top - z0) / (z1 - z0), shift = solver.get("track.gauge") / 2 - gauge;
-  return nodes.map(([y, z]) => [y + shift, z - top]);
+/* Most nodes of a drawn profile; a pixel holds about one of them. */
+const MOST_NODES = 300;
+
+/* Nodes [y, z] of a profile, every n-th if there are many, with the ends. */
+function nodesOf(points) {
+  const n = points[0], by = Math.max(1, Math.ceil(n / MOST_NODES)), nodes = [];
+  for (let i = 0; i < n - 1; i += by) nodes.push([points[1 + i], points[1 + n + i]]);
+  nodes.push([points[n], points[2 * n]]);
+  return nodes;
 }
 
-/* The right wheel in the track, seen along the rail. Return nodes [y, z]. */
-function wheelNodes(points, solver, tapeFromBack) {
-  const n = points[0], tape = solver.get("wheel.flange_back") / 2 + tapeFromBack, radius = solver.get("wheel.radius");
-  const roll = solver.get("pose.roll"), c = Math.cos(roll), s = Math.sin(roll), nodes = [];
-  for (let i = 0; i < n; i++) {
-    const y = tape + points[1 + i], z = radius + points[1 + n + i];
-    nodes.push([solver.get("pose.y") + c * y - s * z, solver.get("wheelset.z") - radius + s * y + c * z]);
-  }
-  return nodes;
+function pathOf(nodes) {
+  const path = new Path2D();
+  nodes.forEach(([y, z], i) => i ? path.lineTo(y, z) : path.moveTo(y, z));
+  return path;
+}
+
+/* What is drawn of a profile is made once for each place of it, not once for each frame. */
+const drawn = new WeakMap();
+function kept(points, key, make) {
+  const last = drawn.get(points);
+  if (last && last.key === key) return last;
+  const made = { key, ...make(points) };
+  drawn.set(points, made);
+  return made;
+}
+
+/* Place the rail in the track: turned by its inclination, its top at z = 0, the gauge at its depth. Return outline, area and middle. */
+function railShape(points, solver) {
+  const turn = -Math.atan(solver.get("rail.inclination")), depth = solver.get("track.gauge_point"), gauge = solver.get("track.gauge");
+  return kept(points, [turn, depth, gauge].join(), () => {
+    const c = Math.cos(turn), s = Math.sin(turn), n = points[0], all = [];
+    for (let i = 0; i < n; i++) all.push([c * points[1 + i] - s * points[1 + n + i], s * points[1 + i] + c * points[1 + n + i]]);
+    const top = all.reduce((least, node) => Math.min(least, node[1]), Infinity), crown = all.findIndex(node => node[1] === top);
+    let k = crown;
+    while (k > 0 && all[k][1] - top < depth) k--;
+    const [y0, z0] = all[k], [y1, z1] = all[k + 1];
+    const shift = gauge / 2 - (y0 + (y1 - y0) * (depth + top - z0) / (z1 - z0));
+    const nodes = nodesOf(points).map(([y, z]) => [c * y - s * z + shift, s * y + c * z - top]);
+    const line = pathOf(nodes), area = pathOf([...nodes, [nodes[nodes.length - 1][0], 1], [nodes[0][0], 1]]);
+    return { line, area, middle: all.reduce((sum, node) => sum + node[0], 0) / n + shift };
+  });
 }
 
 /* Draw both wheels on their rails, seen from behind. `left` has solved the mirror image of the left side. */
@@ -81,27 +103,28 @@ function section(canvas, right, left, wheel, rail) {
 
 /* Draw one wheel on its rail in `box`. The right side is drawn as it is, the left one mirrored. */
 function half(g, solver, wheel, rail, box) {
-  const railAt = railNodes(rail, solver), wheelAt = solver.failed ? [] : wheelNodes(wheel, solver, solver.bundle.tape);
-  const middle = railAt.reduce((sum, node) => sum + node[0], 0) / railAt.length, scale = box.width / 0.105, centre = box.x + box.width / 2;
+  const shape = railShape(rail, solver), middle = shape.middle, scale = box.width / 0.105, centre = box.x + box.width / 2;
   const px = y => centre + box.side * scale * (y - middle), pz = z => 0.5 * box.height + scale * z;
-  const path = nodes => { g.beginPath(); nodes.forEach(([y, z], i) => i ? g.lineTo(px(y), pz(z)) : g.moveTo(px(y), pz(z))); };
   g.save();
   g.beginPath();
   g.rect(box.x, 0, box.width, box.height);
   g.clip();
-  path(railAt);
-  g.lineTo(px(railAt[railAt.length - 1][0]), box.height);
-  g.lineTo(px(railAt[0][0]), box.height);
+  g.save(); // in metres of the track
+  g.transform(box.side * scale, 0, 0, scale, px(0), pz(0));
   g.fillStyle = ink("steel");
-  g.fill();
-  path(railAt);
+  g.fill(shape.area);
   g.strokeStyle = ink("text");
-  g.lineWidth = 1.4;
-  g.stroke();
-  path(wheelAt);
-  g.strokeStyle = ink("wheel");
-  g.lineWidth = 2;
-  g.stroke();
+  g.lineWidth = 1.4 / scale;
+  g.stroke(shape.line);
+  if (!solver.failed) {
+    const roll = solver.get("pose.roll"), c = Math.cos(roll), s = Math.sin(roll), radius = solver.get("wheel.radius");
+    g.transform(c, s, -s, c, solver.get("pose.y"), solver.get("wheelset.z") - radius);
+    g.translate(solver.get("wheel.flange_back") / 2 + solver.bundle.tape, radius);
+    g.strokeStyle = ink("wheel");
+    g.lineWidth = 2 / scale;
+    g.stroke(kept(wheel, "", () => ({ line: pathOf(nodesOf(wheel)) })).line);
+  }
+  g.restore();
   g.fillStyle = ink("faint");
   g.textAlign = "center";
   g.fillText(box.name, centre, 16);
@@ -166,42 +189,53 @@ function across(p, y) {
   return { a: Math.sqrt(p.A[i] ** 2 + t * (p.A[i + 1] ** 2 - p.A[i] ** 2)), x: mix(p.XC), i, next: i + 1, t, fall: 1 };
 }
 
-/* A canvas with the field of one patch, interpolated between strips and elements. `scale` is in pixels per m. */
+/* One canvas for all patches: `smooth` fills it, its caller copies it at once. It only grows. */
+let board;
+
+/* Put the field of one patch, interpolated between strips and elements, on the board. `scale` is in pixels per m. Return its size. */
 function smooth(p, box, scale, shown, top) {
   const width = Math.max(1, Math.round(scale * (box[1] - box[0]))), height = Math.max(1, Math.round(2 * scale * box[2]));
-  const canvas = document.createElement("canvas"), places = 256, first = new Uint16Array(places + 1), share = new Float64Array(places + 1);
-  Object.assign(canvas, { width, height });
-  const g = canvas.getContext("2d"), image = g.createImageData(width, height), data = image.data, m = p.m;
+  board ??= document.createElement("canvas").getContext("2d", { willReadFrequently: true }); // in memory: pixels are set, not drawn
+  if (board.canvas.width < width || board.canvas.height < height)
+    Object.assign(board.canvas, { width: Math.max(width, board.canvas.width), height: Math.max(height, board.canvas.height) });
+  const places = 256, first = new Uint16Array(places + 1), share = new Float64Array(places + 1), edge = new Float64Array(places + 1).fill(1);
+  const image = board.createImageData(width, height), data = new Uint32Array(image.data.buffer), m = p.m, n = p.n;
   const s = Array.from({ length: m }, (_, j) => (p.X[j] - p.XC[0]) / p.A[0]); // falls from the leading edge; the same in all strips
   for (let q = 0, j = m - 1; q <= places; q++) {
     const at = -1 + 2 * q / places;
     while (j > 1 && s[j - 1] < at) j--;
     first[q] = Math.max(1, j);
     share[q] = m > 1 ? Math.min(1, Math.max(0, (at - s[first[q]]) / (s[first[q] - 1] - s[first[q]]))) : 0;
+    const limit = at > s[0] ? s[0] : at < s[m - 1] ? s[m - 1] : null;
+    if (shown.vanishes && limit !== null) edge[q] = Math.sqrt((1 - at * at) / (1 - limit * limit));
   }
-  const values = Float64Array.from({ length: p.n * m }, (_, e) => shown.at(p, e));
-  const grey = /^#(..)(..)(..)$/.exec(ink("stick")).slice(1).map(text => parseInt(text, 16));
+  const values = Float64Array.from({ length: n * m }, (_, e) => shown.at(p, e)), unit = top > 0 ? 255 / top : 0;
+  const grey = pixel(/^#(..)(..)(..)$/.exec(ink("stick")).slice(1).map(text => parseInt(text, 16)));
+  const strip = new Float64Array(m + 1), sticks = new Float64Array(m + 1); // m + 1: the last one twice
   for (let column = 0; column < width; column++) {
     const place = across(p, box[0] + (column + 0.5) / scale);
     if (!place || !(place.a > 0)) continue;
-    const { i, next, t } = place, one = i * m, other = next * m;
-    for (let row = 0; row < height; row++) {
-      const at = (box[2] - (row + 0.5) / scale - place.x) / place.a;
-      if (at <= -1 || at >= 1) continue;
-      const q = Math.round((at + 1) * places / 2), j = first[q], u = share[q], back = Math.min(j, m - 1), ahead = Math.max(0, j - 1);
-      const mix = list => (1 - t) * ((1 - u) * list[one + back] + u * list[one + ahead]) + t * ((1 - u) * list[other + back] + u * list[other + ahead]);
-      let value = mix(values);
-      if (shown.vanishes) {
-        value *= place.fall;
-        const limit = at > s[0] ? s[0] : at < s[m - 1] ? s[m - 1] : null;
-        if (limit !== null) value *= Math.sqrt((1 - at * at) / (1 - limit * limit));
+    const { i, next, t, a, x } = place, one = i * m, other = next * m, fall = shown.vanishes ? unit * place.fall : unit;
+    for (let j = 0; j <= m; j++) {
+      const k = Math.min(j, m - 1);
+      strip[j] = fall * ((1 - t) * values[one + k] + t * values[other + k]);
+      if (shown.sticks) sticks[j] = (1 - t) * p.STICK[one + k] + t * p.STICK[other + k];
+    }
+    const half = a * scale, centre = (box[2] - x) * scale - 0.5; // row of the middle
+    const low = Math.max(0, Math.ceil(centre - half + 1e-9)), high = Math.min(height - 1, Math.floor(centre + half - 1e-9));
+    for (let row = low; row <= high; row++) {
+      const at = (centre - row) / half, q = Math.round((at + 1) * 0.5 * places), j = first[q], u = share[q];
+      const inside = half - Math.abs(centre - row); // pixels to the edge, which is smooth
+      let rgba = grey;
+      if (!shown.sticks || (1 - u) * sticks[j] + u * sticks[j - 1] <= 0.5) {
+        const value = edge[q] * ((1 - u) * strip[j] + u * strip[j - 1]);
+        rgba = PIXELS[value > 255 ? 255 : value < 0 ? 0 : (value + 0.5) | 0];
       }
-      const rgb = shown.sticks && mix(p.STICK) > 0.5 ? grey : colour(top > 0 ? value / top : 0), pixel = 4 * (row * width + column);
-      data[pixel] = rgb[0]; data[pixel + 1] = rgb[1]; data[pixel + 2] = rgb[2]; data[pixel + 3] = 255 * Math.min(1, (1 - Math.abs(at)) * place.a * scale); // a smooth edge
+      data[row * width + column] = inside < 1 ? (rgba & 0xffffff | (255 * inside) << 24) >>> 0 : rgba;
     }
   }
-  g.putImageData(image, 0, 0);
-  return canvas;
+  board.putImageData(image, 0, 0);
+  return [width, height];
 }
 
 /* Greatest value of a map over several answers, so that two methods share one scale. */
@@ -220,8 +254,8 @@ function map(canvas, patches, kind, frame) {
   let left = (width - scale * total) / 2;
   patches.forEach((p, k) => {
     const at = y => left + scale * (y - boxes[k][0]), up = x => middle - scale * x;
-    const picture = smooth(p, boxes[k], scale * (window.devicePixelRatio || 1), shown, frame.top);
-    g.drawImage(picture, left, up(boxes[k][2]), scale * (boxes[k][1] - boxes[k][0]), 2 * scale * boxes[k][2]);
+    const [wide, tall] = smooth(p, boxes[k], scale * (window.devicePixelRatio || 1), shown, frame.top);
+    g.drawImage(board.canvas, 0, 0, wide, tall, left, up(boxes[k][2]), scale * (boxes[k][1] - boxes[k][0]), 2 * scale * boxes[k][2]);
     if (kind === "traction") arrows(g, p, at, up, frame.top);
     if (kind === "slip") arrows(g, { ...p, QX: p.SX, QY: p.SY }, at, up, frame.top);
     g.fillStyle = ink("text");
@@ -254,7 +288,10 @@ function arrows(g, p, at, up, top) {
 
 function legend(g, width, height, shown, top) {
   const size = Math.min(170, 0.42 * width), x = width - size - 10, y = height - 16;
-  for (let i = 0; i < size; i++) { g.fillStyle = `rgb(${colour(i / size)})`; g.fillRect(x + i, y, 1.5, 8); }
+  const shades = g.createLinearGradient(x, 0, x + size, 0);
+  VIRIDIS.forEach((rgb, i) => shades.addColorStop(i / (VIRIDIS.length - 1), `rgb(${rgb})`));
+  g.fillStyle = shades;
+  g.fillRect(x, y, size, 8);
   g.fillStyle = ink("text");
   const value = shown.factor * top;
   g.textAlign = "right";

@@ -63,9 +63,19 @@ function read(text) {
 
 const points = kind => own[kind][state[kind]] ?? doubles(bundle[kind + "s"][state[kind]]);
 
+/* The link follows the state a few times a second, since browsers limit how often it may change. */
+let linked = 0, linking;
+function link() {
+  clearTimeout(linking);
+  const wait = linked + 250 - performance.now();
+  if (wait > 0) { linking = setTimeout(link, wait); return; }
+  linked = performance.now();
+  history.replaceState(null, "", "#" + write());
+}
+
 function changed() {
   dirty = true;
-  history.replaceState(null, "", "#" + write());
+  link();
 }
 
 function option(value, text, title) {
@@ -148,34 +158,60 @@ function numbers(found) {
       `${(factor * solvers[k].get(`patch[].${name}`)).toFixed(3)} ${unit}`]), "", "creepages") + (name === "spin" && explained.has("creepages") ? explanation(...bundle.creepages) : ""));
   const doubt = k => gapTooLarge(k) ? "; the gap error is large: the largest pressure is more than 5 % wrong on most such patches" : "";
   const status = row("status", found.map((answer, k) => [answer.text + (answer.failed ? "" : doubt(k)), answer.failed || answer.untrusted ? "bad" : ""]), "status");
-  $("numbers").innerHTML = `<table><thead><tr><th></th>${head}</tr></thead><tbody>${rows.join("")}${status}</tbody></table>`;
+  const text = `<table><thead><tr><th></th>${head}</tr></thead><tbody>${rows.join("")}${status}</tbody></table>`;
+  if (text === shownNumbers) return;
+  shownNumbers = text;
+  $("numbers").innerHTML = text;
 }
+let shownNumbers = "";
 
+/* Ask for the curves: one question at a time, and not at every frame, so that a core is left for the frames. */
 function ask() {
-  if (!worker || asked > answered) return; // one question at a time; the newest state is asked when the answer comes
+  if (!worker || asked > answered || waiting) return; // the newest state is asked when the answer comes
+  const wait = askedAt + 100 - performance.now();
+  if (wait > 0) { waiting = setTimeout(() => { waiting = 0; ask(); }, wait); return; }
   asked++;
+  askedAt = performance.now();
   asking = write() + state.wheel + state.rail;
   worker.postMessage({ number: asked, state, wheel: points("wheel"), rail: points("rail"),
     name: state.wheel + "|" + state.rail, sweeps: SWEEPS.map(({ name, low, high, count }) => ({ name, low, high, count })) });
 }
-let asking = "";
+let asking = "", askedAt = 0, waiting = 0;
+
+/* Whether a canvas already shows what follows from `key` at its size. */
+function shows(canvas, ...key) {
+  const now = [...key, canvas.clientWidth, window.devicePixelRatio, document.documentElement.dataset.theme], last = canvas.key ?? [];
+  canvas.key = now;
+  return now.length === last.length && now.every((part, i) => part === last[i]);
+}
 
 function drawCurves() {
   for (const sweep of SWEEPS) {
     const name = state[sweep.canvas], row = bundle.variables[name], title = bundle.results.find(result => result[0] === name)[1];
+    if (shows($(sweep.canvas), lines[sweep.name], state.methods.length, name, state.values[sweep.name])) continue;
     const drawn = (lines[sweep.name] ?? []).slice(0, state.methods.length).map((line, k) => ({ x: line.x, y: line.results[name], dashed: k > 0 }));
     curves($(sweep.canvas), drawn, sweep.low, sweep.high, state.values[sweep.name], [sweep.title, row.unit ? `${title} [${row.unit}]` : title]);
   }
 }
 
 function drawConicity() {
+  if (shows($("conicity"), lines.conicity?.[0].results.conicity, Math.abs(state.values["pose.y"]))) return;
   const drawn = (lines.conicity ?? []).map(line => ({ x: line.x, y: line.results.conicity }));
   curves($("conicity"), drawn, 0.5, 7, Math.abs(state.values["pose.y"]), ["amplitude [mm]", "equivalent conicity [-]"]);
 }
 
-function frame() {
+let told = 0, untold; // numbers change ten times a second: nobody reads faster, and their table is laid out anew
+
+function frame(now) {
   requestAnimationFrame(frame);
-  if (!dirty) return;
+  if (dirty) draw();
+  if (!untold || now - told < 100) return;
+  numbers(untold); // after the canvases, which ask for their widths
+  told = now;
+  untold = undefined;
+}
+
+function draw() {
   dirty = false;
   const wheel = points("wheel"), rail = points("rail"), key = state.wheel + "|" + state.rail;
   const solve = (solver, state, k) => {
@@ -192,7 +228,6 @@ function frame() {
   const shown = answers.slice(0, state.methods.length), boxes = shown.map(extent);
   const width = Math.max(18e-3, ...boxes.map(list => list.reduce((sum, box) => sum + box[1] - box[0] + 3e-3, 0)));
   const reach = Math.max(6e-3, ...boxes.flat().map(box => 1.08 * box[2])), scale = { width, reach, top: greatest(shown, state.map) };
-  numbers(found);
   section($("section"), solvers[0], left, wheel, rail);
   state.methods.forEach((method, k) => {
     $(`title-${k}`).textContent = `${method.normal} + ${method.tangential}`;
@@ -201,6 +236,7 @@ function frame() {
   $("figure-1").hidden = state.methods.length < 2;
   drawCurves();
   drawConicity();
+  untold = found;
   ask();
   window.last = { found, force: ["x", "y", "z"].map(axis => solvers[0].get("force." + axis)) }; // for the tests
 }
@@ -294,7 +330,7 @@ async function begin() {
   $("theme").onclick = () => theme(document.documentElement.dataset.theme === "dark" ? "light" : "dark");
   $("reset").onclick = () => { state = startState(); controls(); changed(); };
   $("link").onclick = async () => {
-    changed();
+    history.replaceState(null, "", "#" + write());
     try { await navigator.clipboard.writeText(location.href); $("link").textContent = "Copied"; } catch { prompt("Link:", location.href); }
     setTimeout(() => { $("link").textContent = "Copy link"; }, 1500);
   };

@@ -142,6 +142,23 @@ function aboutZero(points, kind, rules, findings) {
   return points.map(([y, z]) => [y, z - tread]);
 }
 
+/* What is said of a profile that is turned, as the library's `inspection.turned` finds it. */
+function turned(points, kind, rules, findings) {
+  const z = points.map(p => p[1]), top = argmax(z.map(v => -v));
+  let middle = 0; // of a wheel its tape circle, which is at 0 by now
+  if (kind === "rail") {
+    const gauge = points.slice(0, top).findLastIndex(p => p[1] > z[top] + rules.gauge_depth);
+    middle = gauge >= 0 ? points[gauge][0] + rules.crown_from_gauge : (points[0][0] + points[points.length - 1][0]) / 2;
+  }
+  const [low, high] = rules.slope_between[kind].map(end => middle + end), inside = points.filter(([y]) => y > low && y < high);
+  if (inside.length < 5 || inside[inside.length - 1][0] - inside[0][0] < 0.8 * (high - low)) return;
+  const mean = axis => sum(inside.map(p => p[axis])) / inside.length, [my, mz] = [mean(0), mean(1)];
+  const slope = Math.atan(sum(inside.map(([a, b]) => (a - my) * (b - mz))) / sum(inside.map(([a]) => (a - my) ** 2)));
+  if (Math.abs(slope - rules.usual_slope[kind]) <= rules.turned_by[kind]) return;
+  const [part, usual] = kind === "wheel" ? ["tread", "it rises by 1 to 3°"] : ["top", "it is level within 3°"];
+  findings.push(`turned? the ${part} ${slope > 0 ? "falls" : "rises"} by ${(Math.abs(slope) * 180 / Math.PI).toFixed(1)}° to the field side, usually ${usual}`);
+}
+
 /* Root mean square of the noise across the profile: the rest beside local cubics through nine points. */
 function noiseOf(points) {
   const rests = [];
@@ -239,7 +256,14 @@ function readProfile(content, asked, rules) {
   if (!kind) throw new ProfileError("the points could be a wheel or a rail: open the file with “wheel …” or “rail …”");
   if (asked && looks && asked !== looks)
     throw new ProfileError(`the points have the shape of a ${looks}: ${looks === "wheel" ? "a flange near one end" : "a crown in the middle"}`);
+  const [width, height] = [0, 1].map(axis => Math.max(...points.map(p => p[axis])) - Math.min(...points.map(p => p[axis])));
+  const swapped = `the points are ${mm(height)} high and ${mm(width)} wide: are the columns y and z swapped, or is the profile turned by 90°?`;
+  if (height > rules.taller * width) {
+    if (kind === "wheel") throw new ProfileError(swapped);
+    findings.push(swapped);
+  } else if (kind === "rail" && !looks) findings.push("no crown with sides that fall off: is this the head of a rail?");
   points = aboutZero(withoutBackSteps(placed(points, kind, rules, findings), findings), kind, rules, findings);
+  turned(points, kind, rules, findings);
   const spacing = median(points.slice(1).map((p, i) => distance(p, points[i]))), sigma = noiseOf(points);
   if (rules.tangent_of_noise * sigma > rules.rough * spacing) {
     const off = 1e3 * rules.tangent_of_noise * sigma / spacing;

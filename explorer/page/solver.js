@@ -29,8 +29,13 @@ class Solver {
     this.stale = true;
   }
 
-  /* The values of the table. Growing memory detaches earlier views, so this one is made anew each time. */
-  get values() { return new Float64Array(this.exports.memory.buffer, this.base, this.start.length + this.bundle.room); }
+  /* The values of the table. Growing memory detaches earlier views, so one is made for each memory. */
+  get values() {
+    const { buffer } = this.exports.memory;
+    if (this.view?.buffer !== buffer || this.view.byteOffset !== this.base)
+      this.view = new Float64Array(buffer, this.base, this.start.length + this.bundle.room);
+    return this.view;
+  }
 
   set(name, value) {
     const row = this.bundle.variables[name], values = this.values;

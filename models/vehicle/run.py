@@ -23,6 +23,7 @@ from .declared import VehicleDeclaration
 from .hunting import Hunting, fall
 from .kernels.layout import Axis, Book, Sum, TrackFrame, TrackRow
 from .ledgers import BODIES, fill, ledger
+from .notebook import of_run
 from .simulation import SIDES, ContactOptions, Simulation
 
 Array = NDArray[np.float64]
@@ -264,6 +265,10 @@ class VehicleRun:
         state.sums[:] = 0.0
         self._before[:] = state.u
         self._rows.append(np.array(row))
+
+    def _repr_html_(self) -> str:
+        """Return HTML for a notebook: how far the run is, the largest forces, and a sketch of Y and Q of the first axle."""
+        return of_run(self)
 
     @property
     def columns(self) -> dict[str, tuple[str, str]]:

@@ -30,6 +30,7 @@ from .kernels.benches import Benches, gather
 from .kernels.between import held
 from .kernels.frames import speed_at
 from .kernels.layout import Book, Model, Scratch, State, Sum, scratch
+from .notebook import of_simulation
 from .sections import RailSection, require_apart
 from .uneven import Stretch, UnevenWheels
 
@@ -233,6 +234,10 @@ class Simulation:
         """
         solved = self._pairs[wheel].solve(Pose(), Velocity(speed), load=load, friction=self._friction)
         return solved.z
+
+    def _repr_html_(self) -> str:
+        """Return HTML for a notebook: place, time, and what every wheel does, with a sketch of the vertical forces."""
+        return of_simulation(self)
 
     @property
     def distance(self) -> float:

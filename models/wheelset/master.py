@@ -26,6 +26,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from contact.errors import ContactError, require_number
+from contact.notebook import Sketch, beside, table
 
 from .components import Component
 from .iteration import fixed_point
@@ -102,6 +103,26 @@ class History:
         dissipated = np.concatenate(([0.0], np.cumsum(power[1:] + power[:-1]) * (0.5 * self.step)))
         residual = self["energy.interface"] - dissipated - self.elastic_energy
         return residual - residual[min(1, residual.size - 1)]
+
+    def _repr_html_(self) -> str:
+        """Return HTML with a sketch of the lateral displacement over the distance, for a notebook."""
+        s, y = self.distance, 1e3 * self["lateral"]
+        drawn = Sketch(
+            (s[0], s[-1]), (y.min(), y.max()), ("distance [m]", "lateral displacement [mm]"), "lateral motion"
+        )
+        drawn.curve(s, y)
+        rows = [
+            ("speed, step", f"{self.speed:g} m/s, {1e3 * self.step:g} ms"),
+            ("time, distance", f"{self['time'][-1]:.4g} s, {s[-1]:.5g} m"),
+            ("lateral", f"{y.min():.4g} … {y.max():.4g} mm"),
+            *((f"largest load, {side}", f"{1e-3 * self[f'{side}.load.normal_force'].max():.4g} kN") for side in SIDES),
+            (
+                "rounds",
+                f"{self.rounds.max(initial=1)} at most, {int((self.rounds > MOST_ROUNDS).sum())} steps without convergence",
+            ),
+            ("power residual", f"{np.abs(self.power_residual).max():.4g} J"),
+        ]
+        return beside(table((), rows, "wheelset"), drawn.svg())
 
     def write_csv(self, path: str | PathLike[str], columns: Sequence[str] = COLUMNS, every: int = 1) -> None:
         """Write every `every`-th communication point as CSV, with a header of names."""

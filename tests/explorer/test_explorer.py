@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import base64
 import json
 import shutil
 import subprocess
@@ -17,6 +18,7 @@ from contact.pair import WheelRailPair
 from explorer.bundle import RAILS, WHEELS
 from fmu_src.tables.wheel_rail_pair import table
 from reference.random_cases import PARTNERS
+from tests.explorer.wrong_files import FILES, written
 
 ROOT = Path(__file__).parents[2]
 METHODS = contact.methods().batched
@@ -214,6 +216,31 @@ def test_an_own_profile_is_used_and_a_broken_one_is_refused(page, browser, tmp_p
     assert "at least ten rows" in tab.inner_text("#findings")
     assert tab.evaluate("state.wheel") == "mine.txt"
     assert said == []  # no alert
+
+
+def test_thirty_wrong_files_are_told_beside_the_field_and_the_page_goes_on(page, browser, tmp_path):
+    """No alert, no error of the page, and a solved state after each of them."""
+    tab, errors = _open(browser, page, "pose.y=2")
+    said: list[str] = []
+    tab.on("dialog", lambda dialog: (said.append(dialog.message), dialog.accept()))
+    for name, path in written(tmp_path).items():
+        _, words, kind = FILES[name]
+        before = tab.evaluate("[state.wheel, state.rail]")
+        content = base64.b64encode(path.read_bytes()).decode()
+        dropped = f"new File([Uint8Array.from(atob('{content}'), c => c.charCodeAt(0))], {json.dumps(name)})"
+        tab.evaluate(f"$('drop').ondrop({{preventDefault() {{}}, dataTransfer: {{files: [{dropped}]}}}})")
+        tab.wait_for_function(
+            f"document.querySelector('#findings li')?.textContent.startsWith({json.dumps(name)}) && !dirty"
+        )
+        assert words in tab.inner_text("#findings"), name
+        refused = tab.evaluate("!!document.querySelector('#findings .bad')")
+        assert refused == (kind is None), (name, tab.inner_text("#findings"))
+        if kind is None:
+            assert tab.evaluate("[state.wheel, state.rail]") == before, name
+        else:
+            assert tab.evaluate(f"state.{kind}") == name
+            assert tab.evaluate("last.found[0].failed") is False or name == "circle.txt", name
+    assert (errors, said, len(FILES)) == ([], [], 30)
 
 
 def test_every_slider_choice_and_result_is_a_variable_of_the_fmu():

@@ -10,7 +10,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from contact.geometry import profile
+from contact.geometry import inspection, profile
 from explorer.bundle import rules
 
 pytestmark = pytest.mark.skipif(not shutil.which("node"), reason="needs node")
@@ -139,3 +139,20 @@ def test_text_and_bytes_do_not_crash(tmp_path):
     ):
         path.write_bytes(content)
         assert "error" in opened(path), content[:20]
+
+
+@pytest.mark.parametrize("kind", ["wheel", "rail"])
+@pytest.mark.parametrize("turn", [0.0, 2.0, 6.0, 7.0])
+def test_a_turned_profile_is_told_as_the_library_tells_it(kind, turn, tmp_path):
+    shape = SHAPES[kind].rotated(np.radians(turn))
+    found = opened(written(tmp_path, shape.y, shape.z), kind)
+    assert any(finding.startswith("turned?") for finding in found["findings"]) == (turn > 5.0)
+    assert bool(inspection.turned(np.column_stack((shape.y, shape.z)), kind)) == (turn > 5.0)
+
+
+def test_swapped_columns_and_what_has_no_head_are_told(tmp_path):
+    wheel, said = SHAPES["wheel"], "are the columns y and z swapped"
+    assert said in opened(written(tmp_path, wheel.z, wheel.y), "wheel")["error"]
+    assert any(said in finding for finding in opened(written(tmp_path, wheel.z, wheel.y), "rail")["findings"])
+    flat = opened(written(tmp_path, np.linspace(-0.035, 0.035, 80), np.zeros(80)), "rail")
+    assert "no crown with sides that fall off: is this the head of a rail?" in flat["findings"]

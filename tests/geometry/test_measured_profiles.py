@@ -199,3 +199,42 @@ def test_a_check_is_printed_and_drawn(tmp_path):
     marked = [line for line in figure.axes[0].lines if line.get_label() == "spikes"]
     assert marked[0].get_xdata()[0] == pytest.approx(1e3 * WHEEL.y[350], abs=1e-4)
     assert "nothing found" in str(profile.check(WHEEL))
+
+
+def test_pictures_after_a_repair_say_what_was_dropped(tmp_path):
+    """Issue 34, 6."""
+    plot = pytest.importorskip("contact.plot")
+    z, scan = WHEEL.z.copy(), WHEEL.y.size
+    z[350] += 1e-4
+    path = wheel_file(tmp_path / "wheel.txt", np.tile(WHEEL.y, 2)[:-100], np.tile(z, 2)[:-100])
+    found = profile.check(path, **COLUMNS, repair=True)
+    assert found.dropped == scan - 100 + 1
+    assert [finding.fault.value for finding in found.repaired] == ["several scans", "spikes"]
+    said = f"repair dropped {found.dropped} of {2 * scan - 100} points (several scans, spikes)"
+    assert said in str(found)
+    assert "nothing found" not in str(found)
+    assert said in plot.profile_check(found).get_supxlabel()
+    once = profile.check(wheel_file(tmp_path / "once.txt", WHEEL.y, z), **COLUMNS, repair=True)
+    figure = plot.profile_check(once)
+    assert f"repair dropped 1 of {scan} points (spikes)" in figure.get_supxlabel()
+    dropped = next(line for line in figure.axes[0].lines if line.get_label() == "spikes, dropped")
+    assert dropped.get_xdata()[0] == pytest.approx(1e3 * WHEEL.y[350], abs=1e-4)
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        read = profile.read(path, **COLUMNS, repair=True)
+    for one in (read, read.rotated(0.01)):
+        assert said in one.plot().get_supxlabel()
+        assert said in one._repr_html_()
+    assert WHEEL.plot().get_supxlabel() == ""
+    clean = profile.check(wheel_file(tmp_path / "clean.txt", WHEEL.y, WHEEL.z), **COLUMNS, repair=True)
+    assert (clean.dropped, clean.repaired) == (0, ())
+    assert "nothing found" in str(clean)
+
+
+def test_points_that_coincide_are_repaired_without_an_error(tmp_path):
+    """Found by random files: several scans in which most neighbours are one point."""
+    y, z = np.repeat(WHEEL.y, 3), np.repeat(WHEEL.z, 3)
+    found = profile.check(wheel_file(tmp_path / "wheel.txt", np.tile(y, 2), np.tile(z, 2)), **COLUMNS, repair=True)
+    assert found.profile is not None
+    assert found.profile.y.size == WHEEL.y.size
+    assert "repair dropped" in found.profile.note

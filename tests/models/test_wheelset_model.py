@@ -8,11 +8,13 @@ import pytest
 
 from contact.errors import ContactError
 from contact.geometry.wheelset import Pair, Pose, Velocity
-from models.wheelset import dynamics, reference
+from models.wheelset import dynamics, master, reference
+from models.wheelset.components import direct
 from models.wheelset.model import WheelsetModel
 from models.wheelset.parameters import WheelsetParameters
 from models.wheelset.ports import CREEPAGE, CURVATURE, GAP, LOAD, SIDES
 from tests.models.rolling import RAIL_RADIUS, on_cones
+from tests.notebooks import drawn, words
 
 FREE = {"lateral_stiffness": 0.0, "yaw_stiffness": 0.0}
 MIRRORED = np.array([1.0, -1.0, -1.0])  # longitudinal, lateral, spin
@@ -210,3 +212,13 @@ def test_a_wheelset_off_the_track_raises_an_error_and_changes_nothing():
 def test_impossible_wheelsets_are_refused_with_name_and_range(change, message):
     with pytest.raises(ContactError, match=message):
         WheelsetModel(WheelsetParameters(**change))
+
+
+def test_a_history_of_a_wheelset_is_shown_with_its_lateral_motion():
+    parameters = WheelsetParameters(speed=20.0, lateral=2e-3)
+    wheelset, contacts = direct(parameters)
+    history = master.run(wheelset, contacts, speed=20.0, step=1e-3, duration=0.05)
+    text = words(history._repr_html_())
+    assert f"{1e3 * history['lateral'].max():.4g} mm" in text
+    (line,) = drawn(history._repr_html_(), "polyline")
+    assert line[0, 1] < line[-1, 1]  # it moves to the middle: down in the picture

@@ -23,6 +23,7 @@ from models.vehicle.declared import read
 from models.vehicle.kernels.layout import Axis
 from models.vehicle.run import VehicleRun
 from models.vehicle.simulation import SIDES
+from tests.notebooks import drawn, parsed, words
 
 
 def scenario(**changes) -> Scenario:
@@ -329,3 +330,25 @@ def test_the_error_of_the_step_is_that_of_halving_it(whole):
     assert error.length == 6.0
     assert error.energy == pytest.approx(2.0 * (whole.energy / half.energy - 1.0), rel=1e-9)
     assert f"{100.0 * error.energy:+.2g} %" in error.sentence
+
+
+def test_a_run_is_shown_with_its_largest_force_and_both_wheels(whole):
+    text = words(whole._repr_html_())
+    assert "short" in text
+    largest = max(series.max() for name, series in whole.series.items() if name.endswith("largest_vertical_force"))
+    assert f"{1e-3 * largest:.4g} kN, wheelset" in text
+    lines = drawn(whole._repr_html_(), "polyline")
+    assert len(lines) == 4  # Q and Y of both wheels
+    assert all(np.ptp(line[:, 0]) == pytest.approx(260.0) for line in lines)
+
+
+def test_a_run_is_shown_before_its_first_step():
+    text = words(VehicleRun(scenario())._repr_html_())
+    assert "of 6 m in 0 steps" in text
+
+
+def test_a_simulation_shows_every_wheel(whole):
+    shown = whole.simulation._repr_html_()
+    for wheel in whole.simulation.wheels:
+        assert f"{1e-3 * wheel['vertical']:.4g}" in words(shown)
+    assert sum(element.tag.endswith("rect") for element in parsed(shown)) == 2
