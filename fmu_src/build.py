@@ -1,4 +1,4 @@
-"""Build the FMUs: `contact fmu`, ``python -m fmu_src.build`` and, in a checkout, ``python build_fmu.py``."""
+"""Build the FMUs: `contact fmu`, ``python -m contact_fmu.build`` and, in a checkout, ``python build_fmu.py``."""
 
 from __future__ import annotations
 

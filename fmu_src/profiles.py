@@ -1,6 +1,6 @@
 """Profiles as resources of an FMU. Both packagings read their points and tangents when an instance is made.
 
-`python -m fmu_src.profiles FMU [--wheel NAME|FILE] [--rail NAME|FILE]` replaces the profiles in a finished
+`python -m contact_fmu.profiles FMU [--wheel NAME|FILE] [--rail NAME|FILE]` replaces the profiles in a finished
 FMU. This needs no compiler.
 
 A resource (`fmu_src.resources`) has the rows y [m], z [m] and the angle of the tangent [rad].

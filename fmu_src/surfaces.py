@@ -1,6 +1,6 @@
 """Surfaces as resources of the FMU `WheelRailSurfaces`, which reads them when an instance is made.
 
-`python -m fmu_src.surfaces FMU [--wheel NAME|FILE] [--flat LENGTH] [--rail NAME|FILE] [--origin Y Z] …` replaces them in a
+`python -m contact_fmu.surfaces FMU [--wheel NAME|FILE] [--flat LENGTH] [--rail NAME|FILE] [--origin Y Z] …` replaces them in a
 finished FMU. This needs no compiler.
 
 A resource (`fmu_src.resources`) has one row: the numbers of `contact.geometry.surfaces.compiled.numbers`.

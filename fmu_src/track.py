@@ -1,6 +1,6 @@
 """A track as a resource of the FMUs of vehicles: the rows of `models.vehicle.course.lay`, but for the speed, which is an input.
 
-`python -m fmu_src.track FMU SCENARIO` replaces the track in a finished FMU by that of a scenario (`models/life/readme.md`).
+`python -m contact_fmu.track FMU SCENARIO` replaces the track in a finished FMU by that of a scenario (`models/life/readme.md`).
 """
 
 from __future__ import annotations

@@ -62,3 +62,7 @@ def test_the_names_of_an_installation_work_in_a_checkout(tmp_path):
     )
     environment = os.environ | {"PYTHONPATH": str(ROOT)}
     subprocess.run([sys.executable, "-c", code], cwd=tmp_path, env=environment, check=True)
+    for module in ("contact_fmu.lint", "contact_fmu.lint.__main__"):  # a package and a module, as programs
+        command = [sys.executable, "-m", module, "no_file.fmu"]
+        done = subprocess.run(command, cwd=tmp_path, env=environment, capture_output=True, text=True, check=False)
+        assert "no_file.fmu" in done.stderr

@@ -1,4 +1,4 @@
-"""Check FMUs for rules that common validators do not check: ``python -m fmu_src.lint FILE.fmu …``
+"""Check FMUs for rules that common validators do not check: ``python -m contact_fmu.lint FILE.fmu …``
 
 The rules for descriptions are those of FMI 2.0.5, also applied to FMI 3.0 where it has them. Clause numbers refer to FMI 2.0.5.
 Each rule is a function that takes the root of a modelDescription.xml and yields findings. Its docstring states the rule and is

@@ -1,4 +1,4 @@
-"""The reference run of the model: ``python -m models.wheelset.reference`` writes reference.csv again.
+"""The reference run of the model: ``python -m contact_models.wheelset.reference`` writes reference.csv again.
 
 The contacts are a linear creep law, so the results depend only on the wheelset and the geometry.
 """
