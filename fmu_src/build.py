@@ -14,7 +14,6 @@ from contact_models.wheelset import ports
 from contact_models.wheelset.parameters import WheelsetParameters
 
 from contact.errors import ContactError
-
 from . import profiles, ssp
 from .catalogue import Model, models, surfaces, vehicles
 from .documentation import markdown

@@ -17,7 +17,6 @@ from contact_models.wheelset.ports import POINTS
 from contact.geometry import profile
 from contact.geometry.profile import Kind, Profile
 from contact.geometry.surfaces import SurfacePair
-
 from . import profiles
 from . import surfaces as slices
 from .tables.vehicle import TRACK

@@ -13,7 +13,6 @@ from uuid import UUID
 from xml.etree.ElementTree import Element, SubElement, indent, tostring
 
 from contact import __version__
-
 from .units import BASE_UNITS, DISPLAY_UNITS, UNITS, display_unit
 from .variables import Causality, Kind, Scalar, Table
 

@@ -19,7 +19,6 @@ from contact.errors import ContactError
 from contact.geometry import profile
 from contact.geometry.profile import Kind, Profile
 from contact.geometry.wheelset import Pair
-
 from . import archive
 from . import resources as files
 from .tables.wheel_rail_pair import RAIL, WHEEL

@@ -16,7 +16,6 @@ from contact.geometry import profile
 from contact.geometry.profile import Kind, Profile
 from contact.geometry.surfaces import RailSurface, SurfacePair, WheelSurface, compiled
 from contact.geometry.surfaces.deviation import out_of_round
-
 from . import archive, profiles, resources
 from .tables.wheel_rail_surfaces import MOST_NUMBERS, RAIL, WHEEL
 

@@ -14,7 +14,6 @@ from contact_models.vehicle.course import lay
 from contact_models.vehicle.kernels.layout import TrackRow
 
 from contact.errors import ContactError
-
 from . import archive, resources
 from .tables.vehicle import TRACK
 

@@ -12,7 +12,6 @@ from contact_models.wheelset import motion
 from contact import Status
 from contact.kernels.geometry.settle import DEEPEST
 from contact.kernels.records import LARGEST_ANGLE
-
 from .. import surfaces, track
 from ..profiles import MAGIC, ROWS
 from ..tables import open_vehicle, vehicle, wheel_rail_contact, wheel_rail_pair, wheel_rail_surfaces, wheelset

@@ -54,7 +54,6 @@ class Kernels:
 
     def __init__(self, every: bool) -> None:
         from contact.kernels.entries import all_entries
-
         from . import c_tables
 
         self.of_python = list(entries())
@@ -68,7 +67,6 @@ class Kernels:
         from numba import cfunc, types
 
         from contact.core.compiled import as_c_function
-
         from .component import Given
         from .memory import TYPES, Doubles
 

@@ -9,7 +9,6 @@ from numba import carray
 
 from contact.kernels.block import records
 from contact.kernels.records import GIVEN
-
 from ..tables.open_vehicle import table
 from .component import places
 from .components import OpenFailure

@@ -27,7 +27,6 @@ from contact.kernels.records import (
     WHEEL_OFFSET,
 )
 from contact.kernels.rows import Moved
-
 from ..differences import creepage_steps
 from ..tables.solver import DAMAGE_OUTPUTS
 from ..tables.wheel_rail_pair import LOAD_KIND, PATCH, PATCHES, SIDE

@@ -16,7 +16,6 @@ from pathlib import Path
 from shutil import copy
 
 from contact.core import library
-
 from .kinds import KINDS, names
 
 #: Beginning of the names of the functions that the C interface calls.

@@ -19,7 +19,6 @@ from contact.kernels.block import ahead, matrix, next_line, records, vector
 from contact.kernels.geometry.prepare import rail_origin, turn
 from contact.kernels.records import GIVEN
 from contact.kernels.rows import N_PROFILE_ROWS
-
 from ..tables import wheel_rail_pair as pair_table
 from ..tables.vehicle import TOTALS, WHEEL, table
 from ..variables import Causality, identifier

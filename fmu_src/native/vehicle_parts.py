@@ -25,7 +25,6 @@ from numba import carray
 
 from contact.kernels.block import ahead, cube, matrix, records, vector
 from contact.kernels.records import GIVEN, MOTION
-
 from .components import FARTHEST
 from .memory import compiled, integers_of
 

@@ -34,7 +34,6 @@ from contact.kernels.pipeline import solve_case
 from contact.kernels.records import CASE, DAMAGE, DAMAGE_PARAMETERS, MAX_PATCHES, RESULT
 from contact.kernels.rows import DamageField, Field, Strip
 from contact.kernels.separation import HERTZIAN_POINTS, fill_hertzian
-
 from ..differences import creepage_steps
 from ..tables.solver import DAMAGE_OUTPUTS, SURFACE
 from ..tables.wheel_rail_contact import FLATTEST, GEOMETRY_KIND, LOAD_KIND, table

@@ -18,7 +18,6 @@ from contact.kernels.damage.deposit import arc_length
 from contact.kernels.entries.layout import fill, lay_out
 from contact.kernels.geometry.prepare import facing, rail_origin, take_nodes, turn
 from contact.kernels.rows import N_PROFILE_ROWS, Bin
-
 from ..tables.wheel_rail_pair import ACCUMULATED, BINS, table
 from ..variables import Table
 from . import pair_parts

@@ -14,7 +14,6 @@ from contact.kernels import block, memory
 from contact.kernels.block import ahead
 from contact.kernels.entries.layout import fill
 from contact.kernels.entries.surfaces import is_sound, lay_bench, place_of, prepare_search
-
 from ..tables.wheel_rail_surfaces import FRAME, table
 from ..variables import Table
 from . import pair_parts

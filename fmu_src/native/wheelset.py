@@ -21,7 +21,6 @@ from contact.kernels.geometry.prepare import facing, rail_origin, take_nodes, tu
 from contact.kernels.memory import lay_search
 from contact.kernels.records import GIVEN, MAX_PATCHES
 from contact.kernels.rows import N_PROFILE_ROWS
-
 from ..tables.wheelset import table
 from .components import OUT_OF_GAUGE
 from .memory import compiled

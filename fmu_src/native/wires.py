@@ -13,7 +13,6 @@ import contact
 from contact import material
 from contact.kernels.arrays import Size
 from contact.kernels.records import CASE
-
 from ..variables import Table, identifier
 from .component import numbers, places
 from .memory import compiled, integers_of, numbers_of

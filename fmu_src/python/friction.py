@@ -2,7 +2,6 @@
 
 from contact.friction import LAWS, VELOCITIES, Friction
 from contact.material import Thermal
-
 from .values import SlaveValues
 
 #: Names that rows `friction.…` share with members of `Friction`.

@@ -15,7 +15,6 @@ from pathlib import Path
 import pythonfmu
 
 from contact import __version__
-
 from .. import archive
 from ..catalogue import Model
 from ..description import model_description

@@ -25,7 +25,6 @@ from pythonfmu.fmi2slave import Fmi2Slave
 
 from contact import __version__
 from contact.errors import ContactError, require_number
-
 from ..description import LOG_CATEGORIES, model_description
 from ..variables import Causality, Kind, Table
 from .ending import release_once

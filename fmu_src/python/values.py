@@ -7,7 +7,6 @@ from collections.abc import Mapping
 from typing import Any
 
 from contact.errors import ContactError
-
 from ..variables import Table, Variable
 
 #: Values of some rows by name: a number, or a list for an array.

@@ -12,7 +12,6 @@ from pythonfmu.enums import Fmi2Status
 import contact
 from contact import Creepage, Material, Separation, Solution, Status
 from contact.damage import evaluate
-
 from ..differences import creepage_steps
 from ..tables.wheel_rail_contact import FLATTEST, table
 from .friction import friction

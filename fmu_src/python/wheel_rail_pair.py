@@ -17,7 +17,6 @@ from contact.geometry.profile import Profile
 from contact.geometry.records import Irregularity, Pose, Velocity
 from contact.geometry.wheelset import Pair
 from contact.pair import Contact, ElasticRail, WheelRailPair
-
 from .. import profiles
 from ..tables.solver import DAMAGE_OUTPUTS
 from ..tables.wheel_rail_pair import ACCUMULATED, BINS, MOTION, OFFSET, PATCH, PATCHES, table

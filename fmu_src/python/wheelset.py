@@ -22,7 +22,6 @@ from contact_models.wheelset.ports import (
 )
 
 from contact.geometry import profile
-
 from ..tables.wheelset import KEYWORDS, table
 from .slave import TableSlave
 from .values import Rows, SlaveValues

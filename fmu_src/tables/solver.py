@@ -10,7 +10,6 @@ from contact import Status, friction, registry
 from contact.kernels.normal.strip_halfspace import MAX_ITERATIONS
 from contact.material import THERMAL_RANGE, Thermal
 from contact.solver import N_ELEMENTS, N_STRIPS
-
 from ..variables import Enumeration, Variable, output, parameter
 
 NORMAL_METHOD = Enumeration("NormalMethod", tuple((m.name, m.title) for m in contact.methods().batched.normal.values()))

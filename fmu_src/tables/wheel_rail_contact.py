@@ -11,7 +11,6 @@ from contact import friction
 from contact.creepage import LARGEST_CREEPAGE
 from contact.kernels.records import MAX_PATCHES
 from contact.separation import LARGEST_ROLLING, LARGEST_TILT
-
 from ..variables import Attributes, Enumeration, Table, Variable, output, parameter, signal
 from . import solver
 

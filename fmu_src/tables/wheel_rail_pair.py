@@ -10,7 +10,6 @@ from contact import friction
 from contact.accumulation import MAXIMA, SUMS
 from contact.geometry.wheelset import SAMPLES
 from contact.kernels.records import LARGEST_ANGLE, LARGEST_RAIL_ROLL, SLOWEST
-
 from ..variables import Enumeration, Limits, Table, Variable, output, parameter, signal
 from . import solver
 

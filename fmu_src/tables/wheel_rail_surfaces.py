@@ -7,7 +7,6 @@ from dataclasses import replace
 from functools import cache
 
 from contact.geometry.surfaces.pair import REACHES, SAMPLES
-
 from ..variables import Enumeration, Table, Variable, parameter, signal
 from . import wheel_rail_pair as pair
 

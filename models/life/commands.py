@@ -20,7 +20,6 @@ from contact.cli.document import document
 from contact.cli.output import drawing, reported, require_extra, stop
 from contact.cli.progress import progress_bar
 from contact.errors import ContactError
-
 from ..vehicle.run import VehicleRun
 from . import checkpoint, declared_set, scenario
 from .result import ENDINGS, write_series

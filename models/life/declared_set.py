@@ -14,7 +14,6 @@ import numpy as np
 from contact.errors import ContactError, require_number
 from contact.geometry.profile import Profile
 from contact.material import STEEL
-
 from . import scenario
 from .declared import build, read_table
 from .flange import Flange

@@ -13,7 +13,6 @@ from numpy.typing import NDArray
 
 from contact.accumulation import Histogram, worn_profile
 from contact.geometry.profile import Profile
-
 from .flange import Flange
 
 Array = NDArray[np.float64]

@@ -12,7 +12,6 @@ from contact import plot
 from contact.accumulation import Histogram
 from contact.study.page import faint, html_of, picture
 from contact.study.table import Table, number
-
 from .scenario import Scenario
 from .trust import Trust
 

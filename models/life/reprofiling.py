@@ -8,7 +8,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from contact.geometry.profile import Profile
-
 from .flange import Flange
 from .part import Wheel
 

@@ -13,7 +13,6 @@ from typing import Any
 from contact.accumulation import Histogram, from_xarray, to_xarray
 from contact.errors import ContactError
 from contact.study.files import require_ending
-
 from ..vehicle.run import BALANCE, VehicleRun
 
 FORMAT = "wheelrail-contact run 1"

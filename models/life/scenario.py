@@ -20,7 +20,6 @@ from contact.geometry.surfaces import WheelSurface
 from contact.material import STEEL, Material
 from contact.registry import DEFAULT_NORMAL, DEFAULT_TANGENTIAL, lookup
 from contact.solver import N_ELEMENTS, N_STRIPS, require_resolution
-
 from ..vehicle.declared import VehicleDeclaration
 from ..vehicle.declared import read as read_vehicle
 from ..vehicle.sections import RailSection

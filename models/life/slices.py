@@ -9,7 +9,6 @@ from typing import Any, TypeVar
 
 from contact.errors import ContactError, require_number
 from contact.geometry.surfaces import RailSurface, WheelSurface
-
 from ..vehicle.sections import RailSection
 from ..vehicle.simulation import SIDES
 

@@ -10,7 +10,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from contact.errors import ContactError, require_number
-
 from .spectra import CHANNELS, Irregularities
 
 Array = NDArray[np.float64]

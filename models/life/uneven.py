@@ -10,7 +10,6 @@ from contact.errors import ContactError
 from contact.geometry.profile import Profile
 from contact.geometry.surfaces import Flat, Polygon, WheelSurface
 from contact.geometry.surfaces.deviation import Deviation
-
 from .slices import WheelSlices, require_side
 
 

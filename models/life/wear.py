@@ -15,7 +15,6 @@ from contact.accumulation import Histogram
 from contact.errors import ContactError
 from contact.geometry import conicity
 from contact.geometry.profile import Profile
-
 from ..wheelset.ports import SIDES
 from .declared_set import ScenarioSet
 from .outcome import Outcome, outcome

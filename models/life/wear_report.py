@@ -11,7 +11,6 @@ import numpy as np
 from contact import plot
 from contact.study.page import document, faint, html_of
 from contact.study.table import Table, number
-
 from ..wheelset.ports import SIDES
 from .part import DENSITY, Part, displacement
 from .report import illustrated, warned

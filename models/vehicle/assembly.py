@@ -8,7 +8,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from contact.errors import ContactError
-
 from .declared import Body, Damper, Joint, Spring, Stop, VehicleDeclaration, Wheelset
 from .kernels.layout import BODY, ELEMENT, LINK, Axis, Kind
 

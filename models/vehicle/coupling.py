@@ -11,7 +11,6 @@ from numpy.typing import NDArray
 from contact.core import pack
 from contact.errors import ContactError
 from contact.kernels.arrays import Motions
-
 from .kernels import motion
 from .kernels.frames import speed_at
 from .kernels.layout import Book, Model, Scratch, State

@@ -9,7 +9,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from contact.errors import ContactError
-
 from ..life.track import RAIL_DISTANCE, Track
 from .kernels.layout import TrackRow
 

@@ -9,7 +9,6 @@ import numpy as np
 
 from contact.core import pack
 from contact.kernels.arrays import Bench, Search
-
 from .kernels import crew, motion
 from .kernels.benches import Benches
 from .kernels.layout import Model, Scratch, State

@@ -11,7 +11,6 @@ from numpy.typing import NDArray
 from contact.errors import ContactError
 from contact.friction import Friction
 from contact.geometry.profile import Profile
-
 from ..life.track import Curve, Track
 from .course import lay
 from .declared import VehicleDeclaration

@@ -8,7 +8,6 @@ from pathlib import Path
 from typing import TypeVar
 
 from contact.errors import ContactError, require_number, suggestion
-
 from ..life.declared import build, read_table
 
 #: Folder of the vehicles that are included, one file each.

@@ -6,7 +6,6 @@ from collections.abc import Iterator
 from html import escape
 
 from contact.study.table import Table, number
-
 from .declared import Damper, Joint, Spring, Stop, VehicleDeclaration
 
 _WIDTH, _MARGIN = 900.0, 1.2  # [px], [m] around the outermost bodies

@@ -9,7 +9,6 @@ from contact import workspace
 from contact.accumulation import MAXIMA, SUMS, Histogram
 from contact.kernels.memory import Ledger
 from contact.material import Material
-
 from .kernels.benches import Benches, bins
 
 Array = NDArray[np.float64]

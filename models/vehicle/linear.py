@@ -14,7 +14,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from contact.errors import ContactError
-
 from ..wheelset.stability import onset
 from .kernels.layout import Axis
 from .simulation import Simulation

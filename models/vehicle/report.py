@@ -12,7 +12,6 @@ import numpy as np
 from contact import plot
 from contact.study.page import document, faint, html_of
 from contact.study.table import Table, number
-
 from ..life.report import damage_of, declaration, illustrated, trusted, warned
 from ..wheelset.ports import INWARDS
 from . import assess, drawing, en14363

@@ -13,7 +13,6 @@ from numpy.typing import NDArray
 from contact.accumulation import Histogram
 from contact.errors import ContactError
 from contact.geometry import conicity
-
 from ..life.scenario import Scenario
 from ..life.track import Track
 from ..life.trust import StepError, Trust

@@ -21,7 +21,6 @@ from contact.material import STEEL, Material
 from contact.pair import WheelRailPair
 from contact.registry import DEFAULT_NORMAL, DEFAULT_TANGENTIAL
 from contact.solver import N_ELEMENTS, N_STRIPS
-
 from .assembly import Assembly, assemble
 from .crew import Crew
 from .declared import VehicleDeclaration

@@ -17,7 +17,6 @@ from contact.core import pack
 from contact.geometry.surfaces import SurfacePair
 from contact.kernels.arrays import Bench, Motions, Search, SurfaceSearch
 from contact.pair import WheelRailPair
-
 from .kernels import motion, wheels
 from .kernels.benches import Benches
 from .kernels.frames import speed_at

@@ -10,7 +10,6 @@ from numpy.typing import ArrayLike, NDArray
 import contact
 from contact.errors import ContactError
 from contact.material import Material
-
 from .model import WheelsetModel
 from .parameters import WheelsetParameters
 from .ports import CREEPAGE, CURVATURE, GAP, LOAD, POINTS, REPORT, SIDES

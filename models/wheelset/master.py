@@ -27,7 +27,6 @@ from numpy.typing import ArrayLike, NDArray
 
 from contact.errors import ContactError, require_number
 from contact.notebook import Sketch, beside, table
-
 from .components import Component
 from .iteration import fixed_point
 from .ports import CREEPAGE, ENERGY, FRAME, LOAD, MOTION, PROBLEM, REACTION, REPORT, SIDES

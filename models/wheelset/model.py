@@ -10,7 +10,6 @@ from numpy.typing import NDArray
 from contact.errors import ContactError, require_number
 from contact.geometry.wheelset import Pair
 from contact.kernels.records import GIVEN
-
 from . import dynamics, motion
 from .parameters import WheelsetParameters
 from .ports import POINTS, SIDES

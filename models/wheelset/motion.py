@@ -17,7 +17,6 @@ from contact.kernels.geometry.search import axle
 from contact.kernels.geometry.settle import first_touch, locate
 from contact.kernels.records import LARGEST_ANGLE
 from contact.kernels.rows import Sep
-
 from . import dynamics
 from .dynamics import N_STATE, Constant, Energy, FrameRow, Side, StateRow
 from .ports import LOAD, POINTS

@@ -20,7 +20,6 @@ from contact.kernels.block import part
 from contact.kernels.records import CASE, CONTACT, LEDGER, MAX_PATCHES, MOTION, TOTAL
 from contact.kernels.rows import N_LINE_ROWS, N_PROFILE_ROWS
 from contact.pair import WheelRailPair
-
 from .between import Held
 
 Array = NDArray[np.float64]

@@ -21,7 +21,6 @@ from contact.kernels import kalker
 from contact.kernels.arrays import Givens, Integers, Matrix, Numbers
 from contact.kernels.geometry.search import axle
 from contact.kernels.records import GIVEN
-
 from .layout import ELASTIC
 
 Array = NDArray[np.float64]

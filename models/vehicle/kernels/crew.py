@@ -15,7 +15,6 @@ from enum import IntEnum
 
 from contact.core import COMPILING, entry, kernel
 from contact.kernels.arrays import Integers, Search
-
 from .benches import Benches
 from .frames import speed_at
 from .layout import Book, Model, Scratch, State

@@ -10,7 +10,6 @@ from __future__ import annotations
 import math
 
 from contact.core import kernel
-
 from .frames import member
 from .layout import Axis, Kind, TrackFrame
 

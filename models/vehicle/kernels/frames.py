@@ -6,7 +6,6 @@ import math
 
 from contact.core import entry, kernel
 from contact.kernels.arrays import Matrix, Numbers
-
 from .layout import Axis, Body, Model, TrackFrame, TrackRow
 
 

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from contact.core import entry, kernel
 from contact.kernels.arrays import Motions, Numbers, Search
-
 from .benches import Benches
 from .elements import pull
 from .frames import carried, drift, gyrate, lay_frames, speed_at

@@ -9,7 +9,6 @@ from contact.kernels.arrays import Bench, Given, Search, SurfaceSearch
 from contact.kernels.enumerations import Height, Status
 from contact.kernels.geometry.search import axle
 from contact.kernels.pair import solve_pair
-
 from .benches import Benches, bench_of
 from .between import predict, set_loads, update_prediction
 from .frames import linear, place_on, smooth
