@@ -82,6 +82,9 @@ def position(wheels: Sequence[Wheel], roll: float = 0.0) -> Figure:
         for ax, wheel in zip(axes, wheels, strict=True):
             _section(ax, wheel, roll, strongest)
         axes[0].set_ylabel("z [mm], down")
+        notes = {f"{each.name or each.kind}: {each.note}" for w in wheels for each in (w.wheel, w.rail) if each.note}
+        if notes:
+            parts[0].supxlabel("  ·  ".join(sorted(notes)), fontsize=8.0, color=FAINT)
     patch(solutions, titles, figure=parts[1])
     return figure
 

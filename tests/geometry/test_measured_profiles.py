@@ -6,9 +6,11 @@ import warnings
 import numpy as np
 import pytest
 
+import contact
 from contact import ContactError
 from contact.errors import ProfileWarning
 from contact.geometry import profile
+from contact.geometry.wheelset import Pair, Pose
 from tests.geometry.written import COLUMNS, RAIL, WHEEL, distance, table, wheel_file
 
 
@@ -238,3 +240,15 @@ def test_points_that_coincide_are_repaired_without_an_error(tmp_path):
     assert found.profile is not None
     assert found.profile.y.size == WHEEL.y.size
     assert "repair dropped" in found.profile.note
+
+
+def test_the_picture_of_a_position_says_which_of_its_profiles_was_repaired(tmp_path):
+    plot = pytest.importorskip("contact.plot")
+    z = WHEEL.z.copy()
+    z[350] += 1e-4
+    wheel = profile.read(wheel_file(tmp_path / "mine.txt", WHEEL.y, z), **COLUMNS, repair=True)
+    rail = profile.rail_60e1()
+    patches = Pair(wheel, rail).contacts(Pose(y=1e-3), load=80e3)
+    solutions = [contact.solve(p.separation, p.creepage, load=p.load) for p in patches]
+    figure = plot.position([plot.Wheel("right", wheel, rail, patches, solutions)])
+    assert f"mine: {wheel.note}" in figure.subfigs[0].get_supxlabel()
