@@ -70,7 +70,7 @@ error that says so.
 
 Every class has tests. Of those with an asterisk a part runs every time, and all of it in `make soak`.
 
-| class | tests in `tests/system` |
+| class | tests |
 | --- | --- |
 | null pointers, forged states | `test_native_host.py`: `no_wrong_call_ends_the_host`\\* |
 | value references, order | `every_state_meets_every_function`, `any_function_in_any_order`, `random_calls_of_fmi_3` |
@@ -79,7 +79,7 @@ Every class has tests. Of those with an asterisk a part runs every time, and all
 | steps | `an_invalid_step_is_an_error`, `a_step_is_not_done_twice`; `test_native_discard.py` |
 | allocations, small stacks, fork, reload | `test_native_host.py`: `hard_circumstances_end_no_host`\\* |
 | threads | `on_linux` and `fmi_3` with `threads` |
-| resources | `test_native_table.py`, `test_native_uris.py`, `tests/test_damaged_files.py`\\* |
+| resources | `test_native_table.py`, `test_native_uris.py`, `test_damaged_files.py`\\* |
 | memory over time | `cycles_and_steps_leave_memory_as_it_was`\\* |
 | undefined behaviour | `sanitizers_find_nothing`\\*, `valgrind_finds_nothing` |
 """
