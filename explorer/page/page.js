@@ -200,11 +200,13 @@ function drawConicity() {
   curves($("conicity"), drawn, 0.5, 7, Math.abs(state.values["pose.y"]), ["amplitude [mm]", "equivalent conicity [-]"]);
 }
 
-let told = 0, untold; // numbers change ten times a second: nobody reads faster, and their table is laid out anew
+let fresh = false, told = 0, untold; // numbers change ten times a second: nobody reads faster, and their table is laid out anew
 
 function frame(now) {
   requestAnimationFrame(frame);
   if (dirty) draw();
+  if (fresh) { drawCurves(); drawConicity(); }
+  fresh = false;
   if (!untold || now - told < 100) return;
   numbers(untold); // after the canvases, which ask for their widths
   told = now;
@@ -315,8 +317,7 @@ async function begin() {
     worker.onmessage = ({ data }) => {
       answered = data.number;
       lines = data.lines;
-      drawCurves();
-      drawConicity();
+      fresh = true; // drawn with the next frame
       if (asking !== write() + state.wheel + state.rail) ask();
     };
   } catch (error) {
