@@ -42,22 +42,27 @@ def trajectory(fmu, start: int) -> list[dict[str, float]]:
 
 
 @pytest.fixture(params=["python", "native"])
-def open_contact(request):
+def packaging(request) -> str:
+    return request.param
+
+
+@pytest.fixture
+def open_contact(request, packaging):
     """Return a function that instantiates WheelRailContact in each packaging."""
-    if request.param == "native":
+    if packaging == "native":
         return request.getfixturevalue("open_native")
     opened = request.getfixturevalue("open_fmu")
     return lambda: opened(NAME)
 
 
-@pytest.fixture(params=["python", "native"])
-def open_wheelset(request, tmp_path):
+@pytest.fixture
+def open_wheelset(request, packaging, tmp_path):
     """Return a function that instantiates Wheelset in each packaging."""
-    if request.param == "python":
+    if packaging == "python":
         opened = request.getfixturevalue("open_fmu")
         yield lambda: opened("Wheelset")
         return
-    folder = Path(fmpy.extract(str(request.getfixturevalue("native_wheelset")), str(tmp_path)))
+    folder = Path(fmpy.extract(str(request.getfixturevalue("native_wheelset")), str(tmp_path / "native")))
     instances = []
 
     def native():
@@ -70,7 +75,7 @@ def open_wheelset(request, tmp_path):
 
 
 @pytest.fixture(params=["contact", "wheelset"])
-def kind(request):
+def kind(request, packaging):
     """Return each of the two FMUs as a `Kind`."""
     opened = request.getfixturevalue(f"open_{request.param}")
     if request.param == "contact":
