@@ -117,7 +117,8 @@ def fill_exact(centre: Matrix, plane: Matrix, scratch: Cube, exact: Cube) -> Non
     for m in range(_N_RATIOS):
         longest = math.exp(_LOW + m * _STEP)
         for q in range(_N_SHEARS):
-            _fill_layer(longest, longest * math.sinh(q * _SHEAR_STEP), scratch[0], centre, plane, exact[m * _N_SHEARS + q])
+            shear = 0.5 * (math.exp(q * _SHEAR_STEP) - math.exp(-q * _SHEAR_STEP))
+            _fill_layer(longest, longest * shear, scratch[0], centre, plane, exact[m * _N_SHEARS + q])
         for i in range(n):  # without shear there is no difference; the factor has a limit
             exact[m * _N_SHEARS, 2, i] = exact[m * _N_SHEARS + 1, 2, i]
 
