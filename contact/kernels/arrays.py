@@ -72,6 +72,7 @@ class Rule(NamedTuple):
     cosine_logs: Matrix
     columns: Cube
     descent: Cube
+    exact: Cube
     probes: Numbers
     spread: Matrix
 
