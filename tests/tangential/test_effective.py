@@ -44,10 +44,10 @@ def test_at_its_nodes_the_march_has_the_half_spaces_force_and_moment(i, j, k, l)
 def test_errors_on_cases_between_the_nodes_are_small():
     """300 random ellipses by our half space. Without effective creepages the errors are .0081 / .0261 / .0927, moment .0075."""
     errors = unseen.errors(*reference.unseen_ellipses(), "fastrip_mapped")
-    assert errors["force"].mean() < 0.0021
-    assert np.percentile(errors["force"], 95) < 0.0085
-    assert errors["force"].max() < 0.055
-    assert errors["moment"].mean() < 0.0012
+    assert errors["force"].mean() < 0.001
+    assert np.percentile(errors["force"], 95) < 0.004
+    assert errors["force"].max() < 0.02
+    assert errors["moment"].mean() < 0.0007
 
 
 @pytest.mark.parametrize("creepage", [(1e-3, -4e-4, 0.3), (4e-4, 8e-4, -0.9), (0.0, 1e-3, 0.0)])
