@@ -16,7 +16,6 @@ from contact.kernels.damage.deposit import arc_length
 from contact.kernels.normal import influence
 from contact.kernels.normal.between_panels import fill_probes
 from contact.kernels.normal.descent import fill_descent
-from contact.kernels.normal.exact import fill_exact
 from contact.kernels.rows import Bin
 from contact.registry import Method
 from contact.theory import force_table, kalker
@@ -71,7 +70,6 @@ def rule(n_strips: int, n_elements: int, interacting: bool) -> Rule:
         fill_descent(
             *strip_tables(), made.columns, made.descent
         )  # first, because it uses the columns as scratch memory
-        fill_exact(*strip_tables(), made.columns, made.exact)  # as does this
         influence.fill_columns(made.cosine_logs, strip_tables()[0], made.columns)
     _read_only(*made.across, *made[1:])
     return made

@@ -72,7 +72,6 @@ class Rule(NamedTuple):
     cosine_logs: Matrix
     columns: Cube
     descent: Cube
-    exact: Cube
     probes: Numbers
     spread: Matrix
 

@@ -25,7 +25,6 @@ from contact.kernels.block import cube, matrix, next_line, records, vector
 from contact.kernels.kalker import N_TABLE
 from contact.kernels.normal.between_panels import PROBES
 from contact.kernels.normal.descent import FEWEST, MOST, N_LAYERS
-from contact.kernels.normal.exact import N_EXACT, N_FACTORS
 from contact.kernels.normal.influence import MOST_TABULATED, N_COLUMNS
 from contact.kernels.normal.start import MEM_LN_A
 from contact.kernels.records import (
@@ -114,10 +113,9 @@ def lay_rule(block: Array, end: int, size: Size) -> tuple[Rule, int]:
     columns, end = cube(block, end, N_COLUMNS if tabulated else 1, n if tabulated else 1, n if tabulated else 1)
     descending = size.interacting != 0 and FEWEST <= n <= MOST
     descent, end = cube(block, end, N_LAYERS if descending else 1, n if descending else 1, n if descending else 1)
-    exact, end = cube(block, end, N_EXACT if descending else 1, N_FACTORS if descending else 1, n if descending else 1)
     probes, end = vector(block, end, PROBES)
     spread, end = matrix(block, end, PROBES, n)
-    return Rule(across, elements, cosines, cosine_logs, columns, descent, exact, probes, spread), end
+    return Rule(across, elements, cosines, cosine_logs, columns, descent, probes, spread), end
 
 
 @shared

@@ -233,10 +233,7 @@ class Vector(IntEnum):
     OFFSET_BEST = 38  # offset of the best iterate
     OFFSET_STEPS = 39  # first of DEPTH rows, as STEPS
     OFFSET_CHANGES = 42  # first of DEPTH rows, as CHANGES
-    OF_MIDDLE = 45  # factors of the displacement by the panel's own strips (`normal.exact`): at the strip's middle,
-    OF_ENDS = 46  # in the mean of its ends,
-    OF_DIFFERENCE = 47  # and of their difference
-    PAIRS = 48  # first of the rows of `Pair`
+    PAIRS = 45  # first of the rows of `Pair`
 
 
 class Pair(IntEnum):

@@ -31,16 +31,9 @@ END_LENGTH = 0.447
 #: Weight of a strip's distance from the line through its neighbours' middles in the residual of its offset. Middles of an
 #: ellipse's chords lie in line. Where strips are long and narrow, the conditions at their ends hardly tell zigzags.
 STRAIGHTEN = 0.1
-#: Share of the move that the rule of the ends asks for; (p1/p2)² at the exact half width without the factors of `exact`, and
-#: its slope (strip_halfspace.md 2, step 4).
+#: Share of the move that the rule of the ends asks for; (p1/p2)² at the exact half width and its slope
+#: (strip_halfspace.md 2, step 4).
 END_STEP, END_VALUE, END_SLOPE = 0.6, 0.365, 0.108
-
-
-@kernel
-def end_value(n):
-    """Return (p1/p2)² at the exact half width of an ellipse with `n` strips, which bear its load on its mean lengths."""
-    square = 1.0 / (n * n)
-    return 0.39234 + square * (5.24 + 44.0 * square) if FEWEST <= n <= MOST else END_VALUE
 
 
 @kernel

@@ -6,7 +6,7 @@ from contact.core import entry, kernel
 from contact.kernels import cubic
 from contact.kernels.arrays import Matrix, Numbers
 from contact.kernels.cubic import locate
-from contact.kernels.normal.descent import END_LENGTH, END_SLOPE, END_STEP, end_value
+from contact.kernels.normal.descent import END_LENGTH, END_SLOPE, END_STEP, END_VALUE
 from contact.kernels.normal.strip_system import displacement_outside
 from contact.kernels.records import MAX_PATCHES
 from contact.kernels.rows import Sample, Strip, Vector
@@ -250,7 +250,7 @@ def end_move(vectors, n, first, step, cosines, frozen):
     q = (p1 / p2) ** 2
     if frozen and (q < _PUNCH or p0 < p1):
         return 0.0
-    wanted = (q - end_value(n)) / END_SLOPE
+    wanted = (q - END_VALUE) / END_SLOPE
     p3 = vectors[Vector.P, first + 3 * step] if n > 3 else math.inf
     share = min(max((p2 / p3 - _AWAY) / (_NEAR - _AWAY), 0.0), 1.0) if p3 > 0.0 else 1.0
     if share > 0.0:

@@ -135,21 +135,6 @@ def _found(sep, i, n, unit, own):
 
 
 @kernel
-def _top_of_means(i, strips):
-    """Return the top of the parabola whose means over strip i and its neighbours are their squared pressures, which is exact
-    for an ellipse."""
-    p = strips[Strip.P0]
-    y0, y1, y2 = strips[Strip.Y, i - 1], strips[Strip.Y, i], strips[Strip.Y, i + 1]
-    square = p[i] * p[i]
-    d0, d1 = (square - p[i - 1] * p[i - 1]) / (y1 - y0), (p[i + 1] * p[i + 1] - square) / (y2 - y1)
-    bend = (d0 - d1) / (y2 - y0)
-    if not bend > 0.0:
-        return p[i]
-    slope = d0 - bend * (y1 - y0)
-    return math.sqrt(square + 0.25 * slope * slope / bend + bend * strips[Strip.DY, i] ** 2 / 12.0)
-
-
-@kernel
 def _beside(i, step, n, strips):
     """Return the pressure two strips away. Beyond the end of a patch it is that which continues an ellipse."""
     k = i + 2 * step
@@ -161,7 +146,6 @@ def _beside(i, step, n, strips):
 def peak_between_strips(sep, n, unit, own):
     """Return the largest pressure found between `n` strips where a peak is sharp [Pa]; 0 if none is."""
     strips, panel = own.strips, own.rule.cosines.size - 1
-    exact = own.rule.exact.shape[2] == panel
     if panel < _FEWEST:
         return 0.0
     p, patch, angle = strips[Strip.P0], strips[Strip.PATCH], math.pi / panel
@@ -172,7 +156,7 @@ def peak_between_strips(sep, n, unit, own):
         if patch[i - 1] == patch[i + 1] and p[i - 1] <= p[i] >= p[i + 1] and p[i] > _HIGH * largest:
             bend = (p[i - 1] - _beside(i, -1, n, strips) + p[i + 1] - _beside(i, 1, n, strips)) / p[i]
             share = min(max((bend / of_ellipse - _SHARP) / (_SHARPEST - _SHARP), 0.0), 1.0)
-            share *= share * (3.0 - 2.0 * share)
-            found = _found(sep, i, n, unit, own) if share > 0.0 else 0.0
-            top = max(top, share * found + (1.0 - share) * (_top_of_means(i, strips) if exact else p[i]))
+            if share > 0.0:
+                found = _found(sep, i, n, unit, own)
+                top = max(top, p[i] + share * share * (3.0 - 2.0 * share) * (found - p[i]))
     return top

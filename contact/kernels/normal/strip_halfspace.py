@@ -25,7 +25,6 @@ from contact.kernels.normal.analyn import analyn
 from contact.kernels.normal.between_panels import distances
 from contact.kernels.normal.brackets import damp_turns, halve_turns, keep_between, note_sides
 from contact.kernels.normal.descent import STRAIGHTEN, descend, descend_offsets, has_one_run
-from contact.kernels.normal.exact import set_factors
 from contact.kernels.normal.mixing import advance, mix
 from contact.kernels.normal.orientation import is_image, turn_back, turn_samples
 from contact.kernels.normal.panels import (
@@ -207,7 +206,6 @@ def _find_pressures(problem, delta, panels, n_panels):
         place_middles(own.space.vectors, n, n_panels, delta)
     distances(panels, n_panels, own)
     half_lengths(own.space.vectors, n, n_panels, delta)
-    set_factors(panels, n_panels, problem.skew > 0.0, own.rule.exact, n, own.space.vectors)
     assemble(panels, n_panels, own, problem.skew > 0.0, problem.unit)
     return solve_active(n, n_panels, own.space, problem.by_load, problem.amount)
 

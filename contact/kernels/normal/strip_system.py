@@ -56,11 +56,6 @@ def assemble(panels, n_panels, own, skewed, unit):
             column(columns, k, math.log(a / half), a * unit, matrix[first + k, first : first + n])
         if skewed or not tabulated:
             _fill_off_line(first, n, half, own, unit)
-        factors = vectors[Vector.OF_MIDDLE, first : first + n]
-        for k in range(n):
-            row = matrix[first + k, first : first + n]
-            for i in range(n):
-                row[i] *= factors[i]
     if n_panels > 1:
         assemble_others(n_panels, own, unit)
 
@@ -95,8 +90,8 @@ def _add_panel(first, n, logs, ln_unit, skewed, vectors, plane):
                 fill_ln_X(n, pairs)
             trailing = u  # end 0, once the leading one is known
             u = displacement(plane, forces, pairs, k)
-        vectors[Vector.U, i] += vectors[Vector.OF_ENDS, i] * (0.5 * (trailing + u) if skewed else u)
-        vectors[Vector.DIFFERENCE, i] += vectors[Vector.OF_DIFFERENCE, i] * (u - trailing) if skewed else 0.0
+        vectors[Vector.U, i] += 0.5 * (trailing + u) if skewed else u
+        vectors[Vector.DIFFERENCE, i] += u - trailing if skewed else 0.0
 
 
 @kernel

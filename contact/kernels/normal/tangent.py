@@ -238,11 +238,10 @@ def linearise(sep: Samples, case: Case, own: Workspace, result: Result) -> bool:
     _times(inverse, n, one, p)
     # displacements of the ends, and their responses to the half lengths at the same pressures, in `conditions`
     for i in range(n):
-        at, u, of_own, of_width, of_ends = logs[i], 0.0, 0.0, 0.0, vectors[Vector.OF_ENDS, i]
+        at, u, of_own, of_width = logs[i], 0.0, 0.0, 0.0
         for m in range(n):
             shift, bears = ln_half - ln_a[m], p[m] if p[m] > 0.0 else 0.0
             value, by_X, by_Y = _edge(plane, a[i] / a[m], a[m], at[m] + shift, at[m + 1] + shift, i == m)
-            value, by_X, by_Y = of_ends * value, of_ends * by_X, of_ends * by_Y
             edges[i, m] = unit * value if bears > 0.0 else 0.0
             u += edges[i, m] * bears
             of_width += unit * by_Y * bears
@@ -256,7 +255,7 @@ def linearise(sep: Samples, case: Case, own: Workspace, result: Result) -> bool:
     for s in range(n):
         column(columns, s, ln_a[s] + _STEP - ln_half, a[s] * math.exp(_STEP) * unit, one)
         for i in range(n):
-            change = (vectors[Vector.OF_MIDDLE, i] * one[i] - matrix[s, i]) / _STEP * p[s]
+            change = (one[i] - matrix[s, i]) / _STEP * p[s]
             narrowed[i] += matrix[s, i] * p[s] - change
             changes[i, s] = -change
     for i in range(n):
