@@ -15,8 +15,8 @@ at rho = 0 is zero, so the slopes at vanishing creepage are exactly Kalker's. Th
 (Catmull and Rom), which is once continuously differentiable. Beyond the ends of the table's a/b the difference is that
 of the end. The resultant is limited to mu N, because interpolation may exceed it.
 
-On 300 random ellipses and creepages that are not in the table the force differs from that of the half space by .0010 of
-mu N in the mean, .0038 at the 95th percentile and .017 at most. The moment differs by .0012 of mu N c
+On 300 random ellipses and creepages that are not in the table the force differs from that of the half space by .0011 of
+mu N in the mean, .0044 at the 95th percentile and .017 at most. The moment differs by .0017 of mu N c
 (`benchmarks/creep_table.py`).
 """
 
