@@ -36,10 +36,10 @@ fmu: $(READY)    ## build the FMUs into dist/native and dist/python (three and a
 
 test: $(READY)   ## run the tests
 	$(BIN)/python -c 'from fmu_src.native import systems; systems.folder()'
-	$(BIN)/python -m pytest -n 2 --dist load --maxschedchunk 16
+	$(BIN)/python -m pytest -n 2 --dist worksteal
 
 check: $(READY)  ## run the quick tests (a minute once the library is built)
-	$(BIN)/python -m pytest -n 2 --dist load --maxschedchunk 16 -m "not slow"
+	$(BIN)/python -m pytest -n 2 --dist worksteal -m "not slow"
 
 coverage: $(READY) ## run the quick tests and print which lines of the package no test runs (kernels are compiled: not seen)
 	$(BIN)/python -c 'import contact.core.library as library; library.get_library()'
@@ -52,7 +52,7 @@ soak: $(READY)   ## check memory over a million steps of every native FMU, wrong
 
 KERNELS := tests/normal tests/tangential tests/pair tests/geometry tests/damage tests/test_properties.py tests/test_every_method.py tests/test_robustness.py
 bounds: $(READY) ## run the tests of the kernels with numba's check of array bounds (twenty minutes)
-	CONTACT_JIT=1 NUMBA_BOUNDSCHECK=1 $(BIN)/python -m pytest -n 2 --dist load --maxschedchunk 16 $(KERNELS)
+	CONTACT_JIT=1 NUMBA_BOUNDSCHECK=1 $(BIN)/python -m pytest -n 2 --dist worksteal $(KERNELS)
 
 traps: $(READY)  ## run the same tests with floating-point traps
 	$(BIN)/python -c 'import contact.core.library as library; library.get_library()'
