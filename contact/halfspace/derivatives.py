@@ -66,8 +66,6 @@ def derive(pressed: Pressed, solution: GridSolution) -> Jacobian:
     require_differentiable(pressed)
     given = "approach" if pressed.load is None else "load"
     values = np.zeros((6, 5))
-    if given == "approach":
-        values[4, 3] = 1.0
     p, x, y = pressed.p, pressed.x, pressed.y
     traction = pressed.traction
     if not p.any() or traction is None:

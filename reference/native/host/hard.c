@@ -5,9 +5,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "common.h"
-#include "fmi2FunctionTypes.h"
-#include "fmi3FunctionTypes.h"
+#include "counting.h"
 #include "model.h"
 #include "roles.h"
 #include <dlfcn.h>
@@ -21,17 +19,6 @@ static long until_failure = -1; /* the next allocations that succeed; none fails
 static bool fails(void) { return until_failure >= 0 && until_failure-- == 0; }
 void *malloc(size_t size) { return fails() ? (errno = ENOMEM, NULL) : __libc_malloc(size); }
 void *calloc(size_t n, size_t size) { return fails() ? (errno = ENOMEM, NULL) : __libc_calloc(n, size); }
-
-static void log_2(void *environment, const char *name, fmi2Status status, const char *category, const char *message, ...)
-{
-    (void)environment, (void)name, (void)status, (void)category, (void)message;
-    messages++;
-}
-static void log_3(void *environment, fmi3Status status, const char *category, const char *message)
-{
-    (void)environment, (void)status, (void)category, (void)message;
-    messages++;
-}
 
 static void *library;
 static const char *uri, *path;

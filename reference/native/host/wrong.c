@@ -7,9 +7,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "common.h"
-#include "fmi2FunctionTypes.h"
-#include "fmi3FunctionTypes.h"
+#include "counting.h"
 #include "model.h"
 #include "roles.h"
 
@@ -30,17 +28,6 @@ static size_t count(size_t n) { return is_random ? draw((unsigned)n + 3) : n; } 
 #define P(x) pointer(x)
 #define N(n) count(n)
 #define C P(instance)
-
-static void log_2(void *environment, const char *name, fmi2Status status, const char *category, const char *message, ...)
-{
-    (void)environment, (void)name, (void)status, (void)category, (void)message;
-    messages++;
-}
-static void log_3(void *environment, fmi3Status status, const char *category, const char *message)
-{
-    (void)environment, (void)status, (void)category, (void)message;
-    messages++;
-}
 
 /* ---- what the calls read and write; large enough for any array of the FMU */
 static const unsigned input[ROOM] = {VARIED}, result[ROOM] = {RESULT}, choice[ROOM] = {CHOICE};
