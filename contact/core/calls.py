@@ -5,7 +5,8 @@ these. The library has one C function for each entry,
 
     int64_t entry(const int64_t *arguments, int64_t *results);
 
-Numbers take one word of 8 bytes. An array is its address and its shape, a record its address, a group the words of its members.
+Numbers take one word of 8 bytes. A record is its address, a group the words of its members. The words of an array are what
+numba calls an array: two that only Python needs, number of elements, bytes of an element, address, shape and strides.
 `CONTACT_JIT=1` compiles the same C function with numba when it is first called.
 """
 
@@ -23,6 +24,8 @@ import numpy as np
 from contact.core.marks import COMPILING
 
 _Pack = Callable[[Any], bytes]
+#: Bytes of a word, and number of words of an array besides shape and strides.
+WORD, ARRAY_WORDS = 8, 5
 _INTEGER, _REAL = struct.Struct("q").pack, struct.Struct("d").pack
 
 
@@ -93,7 +96,7 @@ def members_of(kind: Any) -> list[tuple[str, Any]]:
 
 
 def _array_packer(dtype: np.dtype, ndim: int) -> _Pack:
-    to_bytes = struct.Struct(f"{1 + ndim}q").pack
+    to_bytes = struct.Struct(f"{ARRAY_WORDS + 2 * ndim}q").pack
 
     def pack_array(value: Any) -> bytes:
         if type(value) is Packed:
@@ -107,7 +110,7 @@ def _array_packer(dtype: np.dtype, ndim: int) -> _Pack:
             raise TypeError(
                 f"a C-contiguous array of {dtype} with {ndim} dimensions is needed, not {_described(value)}"
             )
-        return to_bytes(value.ctypes.data, *value.shape)
+        return to_bytes(0, 0, value.size, value.itemsize, value.ctypes.data, *value.shape, *value.strides)
 
     return pack_array
 

@@ -1,20 +1,83 @@
-"""The C function of an entry, made by numba from its annotations. Only a process that compiles imports this."""
+"""The C function of an entry, made by numba from its annotations. Only a process that compiles imports this.
+
+The words of arrays and groups lie in memory as compiled functions have them (`contact.core.calls`), so an entry reads nothing
+but numbers and passes addresses on.
+"""
 
 from __future__ import annotations
 
 import ctypes
 from collections.abc import Callable, Iterator
-from itertools import count
 from typing import Annotated, Any, get_args, get_origin
 
 import numpy as np
 from numba import carray, cfunc, njit, types
 from numba.extending import intrinsic
+from numba.np import numpy_support
 
-from contact.core.calls import Entry, members_of
+from contact.core.calls import ARRAY_WORDS, WORD, Entry, members_of
+from contact.core.groups import Group
 
 #: Arguments of every C function: addresses of the words of the arguments, and of the words of the results.
 SIGNATURE = types.void(types.int64, types.int64)
+
+
+def numba_type(kind: Any) -> types.Type:
+    """Return numba's type of an annotation."""
+    if get_origin(kind) is Annotated:
+        shape = get_args(kind)[1]
+        element = numpy_support.from_dtype(np.dtype(shape.dtype))
+        return types.Array(element, shape.ndim, "C") if shape.ndim else element
+    if get_origin(kind) is tuple:
+        return types.BaseTuple.from_types([numba_type(of) for of in get_args(kind)])
+    if kind in (int, float, bool):
+        return {int: types.int64, float: types.float64, bool: types.boolean}[kind]
+    return Group(get_origin(kind) or kind, tuple(numba_type(of) for _, of in members_of(kind)))
+
+
+def n_words(kind: Any) -> int:
+    """Return the number of words of an argument with this annotation."""
+    if get_origin(kind) is Annotated:
+        ndim = get_args(kind)[1].ndim
+        return ARRAY_WORDS + 2 * ndim if ndim else 1
+    if get_origin(kind) is tuple:
+        return sum(map(n_words, get_args(kind)))
+    return 1 if kind in (int, float, bool) else sum(n_words(of) for _, of in members_of(kind))
+
+
+def _reader(kind: Any, word: int) -> Callable[..., Any]:
+    """Return a function that numba compiles: it takes the address of all words and returns the argument that begins at `word`."""
+    numba_kind = numba_type(kind)
+
+    @intrinsic
+    def read(typing_context, address):
+        def generate(context, builder, signature, arguments):
+            model = context.data_model_manager[numba_kind]
+            kept = model.get_value_type() if isinstance(numba_kind, Group) else model.get_value_type().as_pointer()
+            at = builder.add(arguments[0], context.get_constant(types.int64, WORD * word))
+            place = builder.inttoptr(at, kept)
+            return place if isinstance(numba_kind, Group) else builder.load(place)
+
+        return numba_kind(types.int64), generate
+
+    return read
+
+
+class _Writer:
+    """Expressions of a wrapper's source, and the functions that they call."""
+
+    def __init__(self) -> None:
+        self.names: dict[str, Any] = {"carray": carray, "_pointer": _pointer, "int64": np.int64, "float64": np.float64}
+        self._word = 0
+
+    def expression(self, kind: Any) -> str:
+        """Return the expression of the next argument, whose annotation is `kind`."""
+        if get_origin(kind) is tuple:
+            return f"({', '.join(map(self.expression, get_args(kind)))},)"
+        name = f"read{self._word}"
+        self.names[name] = _reader(int if kind is bool else kind, self._word)
+        self._word += n_words(kind)
+        return f"({name}(a) != 0)" if kind is bool else f"{name}(a)"
 
 
 @intrinsic
@@ -27,55 +90,12 @@ def _pointer(typing_context, address):
     return types.voidptr(types.int64), generate
 
 
-class _Writer:
-    """Expressions of a wrapper's source, and the names that they use."""
-
-    def __init__(self) -> None:
-        self.names: dict[str, Any] = {"carray": carray, "_pointer": _pointer, "int64": np.int64, "float64": np.float64}
-        self._word = count()
-
-    def expression(self, kind: Any) -> str:
-        """Return the expression of the next argument, whose annotation is `kind`."""
-        if kind is int:
-            return f"w[{next(self._word)}]"
-        if kind is bool:
-            return f"(w[{next(self._word)}] != 0)"
-        if kind is float:
-            return f"f[{next(self._word)}]"
-        if get_origin(kind) is Annotated:
-            dtype, ndim = get_args(kind)[1]
-            address = f"_pointer(w[{next(self._word)}])"
-            shape = ", ".join(f"w[{next(self._word)}]" for _ in range(ndim)) if ndim else "1"
-            array = f"carray({address}, ({shape},), {self._named(np.dtype(dtype), 'dtype')})"
-            return array if ndim else f"{array}[0]"
-        if get_origin(kind) is tuple:
-            return f"({', '.join(map(self.expression, get_args(kind)))},)"
-        members = [self.expression(of) for _, of in members_of(kind)]
-        group = get_origin(kind) or kind
-        return f"{self._named(group, group.__name__)}({', '.join(members)})"
-
-    @property
-    def n_words(self) -> int:
-        """Number of words that the expressions so far take."""
-        return next(self._word)
-
-    def _named(self, value: Any, stem: str) -> str:
-        for name, known in self.names.items():
-            if known is value or (isinstance(value, np.dtype) and isinstance(known, np.dtype) and known == value):
-                return name
-        name = f"{stem}{len(self.names)}"
-        self.names[name] = value
-        return name
-
-
 def wrapper(one: Entry) -> Callable[..., None]:
     """Return a function (words of arguments, words of results) for numba that calls the kernel of an entry."""
     writer = _Writer()
     given = ", ".join(writer.expression(kind) for kind in one.arguments.values())
-    n = max(writer.n_words, 1)
     lines = [
         f"def {one.symbol}(a, r):",
-        *(f"    {name} = carray(_pointer(a), ({n},), {kind})" for name, kind in (("w", "int64"), ("f", "float64"))),
         f"    found = kernel({given})",
         *(f"    {line}" for line in _stored(one.results)),
     ]

@@ -16,7 +16,9 @@ from __future__ import annotations
 import os
 from collections.abc import Callable, Mapping
 from functools import wraps
-from typing import Any
+from typing import Any, TypeVar
+
+_Group = TypeVar("_Group")
 
 #: Whether numba compiles in this process: for Python ("1"), or for the library ("build").
 COMPILING = os.environ.get("CONTACT_JIT") in ("1", "build")
@@ -48,6 +50,15 @@ def kernel(function: Callable[..., Any]) -> Any:
         raise TypeError(f"{function.__module__}.{function.__qualname__} is compiled for other kernels only")
 
     return refuse
+
+
+def group(named_tuple: type[_Group]) -> type[_Group]:
+    """Mark a class of named tuples with arrays. Kernels pass its instances by address (`contact.core.groups`)."""
+    if not COMPILING:
+        return named_tuple
+    from contact.core.groups import passed_by_address
+
+    return passed_by_address(named_tuple)
 
 
 def inlined(function: Callable[..., Any]) -> Any:

@@ -6,7 +6,7 @@ from typing import Annotated, Any, Generic, NamedTuple, TypeVar
 
 import numpy as np
 
-from contact.core import Shape
+from contact.core import Shape, group
 from contact.kernels import records
 
 Array = Any  # an ndarray of any shape
@@ -46,6 +46,7 @@ Springs = Annotated[Any, Shape(records.ELASTIC_RAIL, 1)]
 Offsets = Annotated[Any, Shape(records.WHEEL_OFFSET, 1)]
 
 
+@group
 class Samples(NamedTuple):
     """Samples of a separation: the rows of `contact.Separation`, all of the same length."""
 
@@ -56,6 +57,7 @@ class Samples(NamedTuple):
     tilt: Numbers
 
 
+@group
 class Across(NamedTuple):
     """Positions of strips across a patch, on [-1, 1], and their weights: Fejér's first rule."""
 
@@ -63,6 +65,7 @@ class Across(NamedTuple):
     weights: Numbers
 
 
+@group
 class Rule(NamedTuple):
     """Positions of strips and elements in a patch, and tables that follow from them. Constant for a resolution, read-only."""
 
@@ -76,6 +79,7 @@ class Rule(NamedTuple):
     spread: Matrix
 
 
+@group
 class Tables(NamedTuple):
     """Interpolated functions, read-only.
 
@@ -89,6 +93,7 @@ class Tables(NamedTuple):
     creep: FiveD
 
 
+@group
 class Space(NamedTuple):
     """Scratch arrays of the normal and the tangential methods.
 
@@ -111,6 +116,7 @@ class Space(NamedTuple):
     tangent: Matrix
 
 
+@group
 class Workspace(NamedTuple):
     """Everything that `pipeline.solve_case` needs besides the problem."""
 
@@ -121,6 +127,7 @@ class Workspace(NamedTuple):
     fields: Cube
 
 
+@group
 class PatchStrips(NamedTuple):
     """Rows of `strips` of one patch."""
 
@@ -130,6 +137,7 @@ class PatchStrips(NamedTuple):
     p0: Numbers
 
 
+@group
 class PatchFields(NamedTuple):
     """Rows of `fields` of one patch, shape (strips, elements)."""
 
@@ -139,6 +147,7 @@ class PatchFields(NamedTuple):
     qy: Matrix
 
 
+@group
 class LoadGrid(NamedTuple):
     """Uniform pressure and traction on the wheel [Pa], shape (ny, nx), on equal rectangles with the centres x, y [m]."""
 
@@ -149,6 +158,7 @@ class LoadGrid(NamedTuple):
     qy: Matrix
 
 
+@group
 class Search(NamedTuple):
     """Arrays of a contact search.
 
@@ -175,6 +185,7 @@ class Search(NamedTuple):
     result: Results
 
 
+@group
 class Sheet(NamedTuple):
     """A surface that changes along its first coordinate u: the arrays of `contact.geometry.surfaces.sheet.SplineSheet`.
 
@@ -190,6 +201,7 @@ class Sheet(NamedTuple):
     deviation: Matrix
 
 
+@group
 class SurfaceSearch(NamedTuple):
     """Arrays of a contact search over surfaces. Members that `Search` also has are the same.
 
@@ -220,6 +232,7 @@ class SurfaceSearch(NamedTuple):
     result: Results
 
 
+@group
 class Ledger(NamedTuple):
     """Bins over both profiles in which damage is accumulated. Without bins nothing is entered.
 
@@ -240,6 +253,7 @@ class Ledger(NamedTuple):
 Kind = TypeVar("Kind", Search, SurfaceSearch)
 
 
+@group
 class Bench(NamedTuple, Generic[Kind]):
     """All arrays of one pair.
 
@@ -269,6 +283,7 @@ class Bench(NamedTuple, Generic[Kind]):
     displaced: Givens
 
 
+@group
 class Aside(NamedTuple, Generic[Kind]):
     """What the derivatives of a pair need besides its bench (`pair_jacobian`).
 

@@ -243,7 +243,7 @@ def solve_cases(
     Separation k is samples[bounds[k]:bounds[k+1]], and case c uses which[c]. The first case starts from `own.space.memory`,
     all others from nothing. Python calls it for single cases too.
     """
-    y, g, A, x_c, tilt = samples
+    y, g, A, x_c, tilt = samples.y, samples.g, samples.A, samples.x_c, samples.tilt
     n = 0
     for c in range(first, last):
         low, high = bounds[which[c]], bounds[which[c] + 1]

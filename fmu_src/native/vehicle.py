@@ -15,6 +15,7 @@ from contact_models.vehicle.kernels.layout import ELASTIC, Book
 from numba import carray, types
 
 from contact import Status
+from contact.core import group
 from contact.kernels.block import ahead, matrix, next_line, records, vector
 from contact.kernels.geometry.prepare import rail_origin, turn
 from contact.kernels.records import GIVEN
@@ -69,6 +70,7 @@ _ALONE = np.array([len(rates) == 1 for _, _, rates in TOTALS.values()])
 _TOTAL_AT = _AT.names.index(identifier(f"wheel[].total.{next(iter(TOTALS))}"))
 
 
+@group
 class Contacts(NamedTuple):
     """What solves the contacts: the pair's values and workspace for each side, and what the contact of each wheel remembers."""
 

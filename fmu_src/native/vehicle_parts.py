@@ -23,6 +23,7 @@ from contact_models.vehicle.kernels.layout import (
 )
 from numba import carray
 
+from contact.core import group
 from contact.kernels.block import ahead, cube, matrix, records, vector
 from contact.kernels.records import GIVEN, MOTION
 from .components import FARTHEST
@@ -33,6 +34,7 @@ _N_BODY, _N_LINK, _N_ELEMENT = BODY.itemsize // 8, LINK.itemsize // 8, ELEMENT.i
 _N_FRAME, _N_SUM, _N_BOOK, _N_ROW = len(TrackFrame), len(Sum), len(Book), len(TrackRow)
 
 
+@group
 class Parts(NamedTuple):
     """A vehicle in working memory. `begun` is not zero after it was placed on its rails."""
 
@@ -43,6 +45,7 @@ class Parts(NamedTuple):
     motions: Any
 
 
+@group
 class Constants(NamedTuple):
     """Pointers to the arrays of a vehicle in its numbers (`components`), and the wheels' radius."""
 

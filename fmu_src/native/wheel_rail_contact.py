@@ -14,6 +14,7 @@ import numpy as np
 from numba import carray
 
 import contact
+from contact.core import group
 from contact.damage import DamageParameters
 from contact.kernels import block, memory
 from contact.kernels.arrays import Samples, Workspace
@@ -112,6 +113,7 @@ _TABLE = table()  # its rows, of whatever size
 _AT = places(_TABLE)
 
 
+@group
 class Arrays(NamedTuple):
     """All arrays in the working memory of an instance."""
 

@@ -12,6 +12,7 @@ from typing import Any, NamedTuple
 
 from numba import carray
 
+from contact.core import group
 from contact.kernels import block, memory, quadrature
 from contact.kernels.block import ahead
 from contact.kernels.damage.deposit import arc_length
@@ -30,6 +31,7 @@ from .wires import references
 DERIVED = tuple(map(len, PAIR_DERIVED))
 
 
+@group
 class Start(NamedTuple):
     """Working memory before the bench.
 

@@ -10,7 +10,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from contact.core import entry, kernel
+from contact.core import entry, group, kernel
 from contact.kernels.arrays import Givens, Matrix, Numbers, Search
 from contact.kernels.geometry.prepare import move
 from contact.kernels.geometry.search import axle
@@ -38,6 +38,7 @@ _ROLL_TOLERANCE = 1e-13  # tolerance of the difference of the two wheels' height
 _CREEPAGE = 2 * POINTS
 
 
+@group
 class Wheelset(NamedTuple):
     """All arrays of one wheelset.
 

@@ -11,7 +11,7 @@ from __future__ import annotations
 import math
 from typing import Any, NamedTuple
 
-from contact.core import COMPILING
+from contact.core import COMPILING, group
 from contact.kernels import block, memory, quadrature
 from contact.kernels.damage.deposit import arc_length
 from contact.kernels.entries.layout import compiled, copy, copy_rows, fill, forget_forged, lay_out, size_of
@@ -38,6 +38,7 @@ if COMPILING:
     from numba import carray
 
 
+@group
 class Start(NamedTuple):
     """Warm starts and bins in the caller's memory: those kept, and those that the last solution has left."""
 

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from typing import Any, NamedTuple
 
+from contact.core import group
 from contact.kernels import block, memory
 from contact.kernels.arrays import Samples, Workspace
 from contact.kernels.damage.assess import damage_kernel
@@ -20,6 +21,7 @@ from contact.kernels.records import CASE, DAMAGE, DAMAGE_PARAMETERS, FORCE_SEARC
 from contact.kernels.rows import DamageField
 
 
+@group
 class _Laid(NamedTuple):
     """All arrays in the caller's memory."""
 

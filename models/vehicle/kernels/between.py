@@ -16,7 +16,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from contact.core import kernel
+from contact.core import group, kernel
 from contact.kernels import kalker
 from contact.kernels.arrays import Givens, Integers, Matrix, Numbers
 from contact.kernels.geometry.search import axle
@@ -51,6 +51,7 @@ class Load(IntEnum):
     T_GAMMA = 9
 
 
+@group
 class Held(NamedTuple):
     """The last solution of every wheel, besides its contacts, and the prediction of the next."""
 

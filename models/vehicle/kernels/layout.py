@@ -12,7 +12,7 @@ from typing import Annotated, Any, NamedTuple
 
 import numpy as np
 
-from contact.core import Shape
+from contact.core import group, Shape
 from contact.kernels.arrays import Cube, Givens, Integers, Matrix, Numbers
 from contact.kernels.records import GIVEN
 
@@ -186,6 +186,7 @@ Seats = Annotated[Any, Shape(SEAT, 1)]
 Seat = Annotated[Any, Shape(SEAT, 0)]
 
 
+@group
 class Model(NamedTuple):
     """Constants of a vehicle on a track."""
 
@@ -199,6 +200,7 @@ class Model(NamedTuple):
     surface: Numbers  # coefficient of friction, at rest and kinetic
 
 
+@group
 class State(NamedTuple):
     """What carries over from one step to the next."""
 
@@ -211,6 +213,7 @@ class State(NamedTuple):
     books: Numbers
 
 
+@group
 class Scratch(NamedTuple):
     """Arrays of one step."""
 
