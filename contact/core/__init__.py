@@ -3,4 +3,16 @@
 from contact.core.calls import Packed, Shape, entry, pack
 from contact.core.marks import COMPILING, arranging, chosen_by, group, inlined, kernel, shared
 
-__all__ = ["COMPILING", "Packed", "Shape", "arranging", "chosen_by", "entry", "group", "inlined", "kernel", "pack", "shared"]
+__all__ = [
+    "COMPILING",
+    "Packed",
+    "Shape",
+    "arranging",
+    "chosen_by",
+    "entry",
+    "group",
+    "inlined",
+    "kernel",
+    "pack",
+    "shared",
+]

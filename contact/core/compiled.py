@@ -46,21 +46,31 @@ def n_words(kind: Any) -> int:
 
 
 def _reader(kind: Any, word: int) -> Callable[..., Any]:
-    """Return a function that numba compiles: it takes the address of all words and returns the argument that begins at `word`."""
+    """Return a function for numba that takes the address of all words and returns the argument that begins at `word`."""
     numba_kind = numba_type(kind)
 
     @intrinsic
     def read(typing_context, address):
         def generate(context, builder, signature, arguments):
-            model = context.data_model_manager[numba_kind]
-            kept = model.get_value_type() if isinstance(numba_kind, Group) else model.get_value_type().as_pointer()
             at = builder.add(arguments[0], context.get_constant(types.int64, WORD * word))
-            place = builder.inttoptr(at, kept)
-            return place if isinstance(numba_kind, Group) else builder.load(place)
+            value = context.get_value_type(numba_kind)
+            if isinstance(numba_kind, Group):
+                return builder.inttoptr(at, value)
+            return builder.load(builder.inttoptr(at, value.as_pointer()))
 
         return numba_kind(types.int64), generate
 
     return read
+
+
+@intrinsic
+def _pointer(typing_context, address):
+    """Return an address as a void pointer."""
+
+    def generate(context, builder, signature, arguments):
+        return builder.inttoptr(arguments[0], context.get_value_type(types.voidptr))
+
+    return types.voidptr(types.int64), generate
 
 
 class _Writer:
@@ -78,16 +88,6 @@ class _Writer:
         self.names[name] = _reader(int if kind is bool else kind, self._word)
         self._word += n_words(kind)
         return f"({name}(a) != 0)" if kind is bool else f"{name}(a)"
-
-
-@intrinsic
-def _pointer(typing_context, address):
-    """Return an address as a void pointer."""
-
-    def generate(context, builder, signature, arguments):
-        return builder.inttoptr(arguments[0], context.get_value_type(types.voidptr))
-
-    return types.voidptr(types.int64), generate
 
 
 def wrapper(one: Entry) -> Callable[..., None]:

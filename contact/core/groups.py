@@ -59,12 +59,14 @@ class _Model(models.DataModel):
         super().__init__(manager, group)
         self.members = [manager.lookup(kind) for kind in group.types]
         self.structure = ir.LiteralStructType([_stored(member) for member in self.members])
+        if self.structure != ir.LiteralStructType([member.get_data_type() for member in self.members]):
+            raise TypeError(f"{group.fields} of {group.name} cannot lie side by side: a tuple of groups, or a bool")
 
     def get_value_type(self) -> Any:
         return self.structure.as_pointer()
 
     def get_data_type(self) -> Any:
-        return ir.LiteralStructType([member.get_data_type() for member in self.members])
+        return self.structure
 
     get_return_type = get_data_type
 
@@ -78,16 +80,12 @@ class _Model(models.DataModel):
         return value
 
     def as_data(self, builder: Any, value: Any) -> Any:
-        data = ir.Constant(self.get_data_type(), ir.Undefined)
-        for i, member in enumerate(self.members):
-            data = builder.insert_value(data, member.as_data(builder, self.read(builder, value, i)), i)
-        return data
+        return builder.load(value)
 
     def from_data(self, builder: Any, value: Any) -> Any:
-        values = [
-            member.from_data(builder, builder.extract_value(value, i)) for i, member in enumerate(self.members)
-        ]
-        return self.write(builder, values)
+        group = cgutils.alloca_once(builder, self.structure)
+        builder.store(value, group)
+        return group
 
     as_return, from_return = as_data, from_data
 
@@ -118,7 +116,7 @@ def _index(i: int) -> Any:
 
 
 @infer_getattr
-class _Members(AttributeTemplate):  # type: ignore[misc]
+class _Members(AttributeTemplate):
     key = Group
 
     def generic_resolve(self, group: Group, name: str) -> types.Type | None:

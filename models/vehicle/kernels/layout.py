@@ -12,7 +12,7 @@ from typing import Annotated, Any, NamedTuple
 
 import numpy as np
 
-from contact.core import group, Shape
+from contact.core import Shape, group
 from contact.kernels.arrays import Cube, Givens, Integers, Matrix, Numbers
 from contact.kernels.records import GIVEN
 
