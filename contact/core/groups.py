@@ -12,6 +12,7 @@ from inspect import signature
 from typing import Any
 
 from llvmlite import ir
+from llvmlite.ir.instructions import ExtractValue
 from numba import types
 from numba.core import cgutils
 from numba.core.typing.templates import AttributeTemplate
@@ -83,9 +84,12 @@ class _Model(models.DataModel):
         return builder.load(value)
 
     def from_data(self, builder: Any, value: Any) -> Any:
-        group = cgutils.alloca_once(builder, self.structure)
-        builder.store(value, group)
-        return group
+        """Return the address of a structure that was loaded from where the called function has left it."""
+        if isinstance(value, ExtractValue):
+            return builder.gep(
+                self.from_data(builder, value.aggregate), [_index(0), *map(_index, value.indices)], inbounds=True
+            )
+        return value.operands[0]
 
     as_return, from_return = as_data, from_data
 
