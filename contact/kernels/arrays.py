@@ -42,6 +42,7 @@ Roots = Annotated[Any, Shape(records.ROOT, 1)]
 Root = Annotated[Any, Shape(records.ROOT, 0)]
 ForceSearches = Annotated[Any, Shape(records.FORCE_SEARCH, 1)]
 ForceSearch = Annotated[Any, Shape(records.FORCE_SEARCH, 0)]
+Iterations = Annotated[Any, Shape(records.ITERATION, 1)]
 Springs = Annotated[Any, Shape(records.ELASTIC_RAIL, 1)]
 Offsets = Annotated[Any, Shape(records.WHEEL_OFFSET, 1)]
 
@@ -98,8 +99,8 @@ class Space(NamedTuple):
     """Scratch arrays of the normal and the tangential methods.
 
     `memory` is the start for the next call. `case` is a copy that a kernel may change. `turned` is the separation in the
-    orientation in which interacting strips are solved. `iterates` has a row for each of their iterations. `tangent` says how
-    they follow a small change (`normal.tangent`).
+    orientation in which interacting strips are solved. `iteration` is the state of their iteration, `iterates` has a row for
+    each step of it. `tangent` says how they follow a small change (`normal.tangent`).
     """
 
     grid: Matrix
@@ -108,6 +109,7 @@ class Space(NamedTuple):
     logs: Matrix
     matrix: Matrix
     lu: Matrix
+    iteration: Iterations
     iterates: Matrix
     memory: Numbers
     lanes: Numbers

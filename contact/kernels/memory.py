@@ -34,6 +34,7 @@ from contact.kernels.records import (
     DAMAGE_PARAMETERS,
     ELASTIC_RAIL,
     GIVEN,
+    ITERATION,
     LEDGER,
     LOBE,
     MAX_LOBES,
@@ -134,6 +135,7 @@ def lay_space(block: Array, end: int, size: Size, memory: Array) -> tuple[Space,
     logs, end = matrix(block, end, MAX_PATCHES * PROBES if size.interacting else 1, capacity + MAX_PATCHES)
     influence, end = matrix(block, end, capacity, capacity)
     lu, end = matrix(block, end, capacity, capacity)
+    iteration, end = records(block, end, 1, ITERATION)
     n_iterates = MOST_ITERATES if size.interacting else 1
     iterates, end = matrix(block, end, n_iterates, Iterate.ENDS + 2 * MAX_PATCHES)
     lanes, end = vector(block, next_line(end), N_LANE_ROWS * LANES)
@@ -141,7 +143,9 @@ def lay_space(block: Array, end: int, size: Size, memory: Array) -> tuple[Space,
     case, end = records(block, end, 1, CASE)
     rows, columns = tangent_shape(size.n_strips, size.interacting)
     tangent, end = matrix(block, end, rows, columns)
-    return Space(grid, turned, vectors, logs, influence, lu, iterates, memory, lanes, trace, case, tangent), end
+    return Space(
+        grid, turned, vectors, logs, influence, lu, iteration, iterates, memory, lanes, trace, case, tangent
+    ), end
 
 
 @shared

@@ -193,6 +193,7 @@ def space_of_patch(space, memory, tangent):
         space.logs,
         space.matrix,
         space.lu,
+        space.iteration,
         space.iterates,
         memory,
         space.lanes,

@@ -379,6 +379,34 @@ FORCE_SEARCH = _record(
     """,
 )
 
+#: State of the iteration of interacting strips (`contact.kernels.normal.iteration`).
+ITERATION = _record(
+    "iteration",
+    """
+    number:int      of this iteration, from 0
+    begun:int       number of the first iteration from the present start
+    warm:int        1 if this start is the last solution
+    patience:int    number of the iteration in which a warm start is given up
+    n_panels:int
+    approach        above first touch [m]
+    error           sum of the residuals, weighted by the strips' loads
+    load            sum of these weights
+    last_error      error over load of the last iteration
+    moved           largest move of an end over the width of its panel
+    left            what the mixing leaves of the step
+    mixed:int       number of iterations that the mixing knows
+    cut:int         1 if idle parts of panels are cut off, so that this iteration has no residuals
+    anew:int        1 if a panel was lost or the ends are fixed from here on, so that the best iterate no longer counts
+    descending:int  1 if panels step by the Jacobian of an ellipse
+    searched:int    1 once the gap outside the panels was searched
+    found:int       1 if there was missed contact
+    events:int      of this iteration, bits of Event
+    exact:int       1 if the residuals are below the tolerance
+    converged:int   1 at rest
+    best            error over load of the best iterate since the ends were fixed
+    """,
+)
+
 #: Bins of a ledger.
 LEDGER = _record(
     "ledger",

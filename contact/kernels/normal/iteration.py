@@ -1,0 +1,330 @@
+"""Iteration of the strip half space: pressures, residuals, step (strip_halfspace.md 2).
+
+The unknowns are ln a of every strip and both ends of every panel, under yaw also the strips' offsets along x. For given
+unknowns (a) of Eq. c1 gives pressures p and approach delta (`find_pressures`). The other conditions leave residuals r
+(`residuals`):
+
+    half lengths  r = 1/2 ln[(delta - g - u)/(A a²)], with the displacement u at the ends of a strip
+    offsets       r = -(u+ - u-)/(4 A a) - d + straightening
+    ends          r = what the rule of the ends moves
+
+The iteration is the record `ITERATION`. A `step` evaluates these, takes as step s = -J⁻¹ r, with the Jacobian of an ellipse
+or with J = -1, and mixes it with the last steps. `accept` says whether that was the last one, and otherwise takes it.
+"""
+
+import math
+from typing import Any, NamedTuple
+
+from contact.core import kernel
+from contact.kernels.normal.brackets import damp_turns, halve_turns, keep_between, note_sides
+from contact.kernels.normal.descent import descend, descend_offsets, has_one_run
+from contact.kernels.normal.mixing import advance, mix
+from contact.kernels.normal.panels import (
+    EARLY_GHOST,
+    GHOST,
+    cut_idle,
+    end_moves,
+    extend_to_ghosts,
+    have_idle_part,
+    join_panels,
+    remove_unloaded,
+    start_panels,
+)
+from contact.kernels.normal.residuals import fill_residuals, find_pressures
+from contact.kernels.normal.strip_system import edge_displacements
+from contact.kernels.normal.turned import turn_panels
+from contact.kernels.rows import Event, Iterate, Vector
+
+#: Load-weighted mean change of ln a, and change of the ends over the width, at which the iteration stops, if the case does
+#: not say another one.
+TOLERANCE = 1e-4
+#: Limits at which steps by the Jacobian of an ellipse stop: what mixing leaves of the step, over the tolerance, and the
+#: residuals, over its square root.
+LEFT, CLOSE = 4.0, 0.4
+#: Load-weighted mean change of ln a that counts as converged at the limit of iterations.
+ACCEPTABLE = 1e-3
+#: Iteration from which on the ends are fixed. At the corner of a punch and on rough gaps their rule has no steady solution.
+FREEZE = 16
+#: Iteration from which on the residuals are the steps, without mixing, which may go round in circles on rough gaps.
+PLAIN = 22
+#: The same of strips whose offsets count in full, which need longer then.
+PLAIN_SKEWED = 18
+#: Iteration from which on the ends keep between the places from which they moved outwards and inwards.
+BRACKET = 12
+#: Iterations in which a warm start has to come to rest. Then the iteration starts again from ANALYN's solution.
+WARM = 8
+
+
+class Problem(NamedTuple):
+    """What stays the same while the normal problem is solved."""
+
+    sep: Any
+    own: Any
+    result: Any  # ANALYN's, with `n_strips` strips in `own.strips`
+    n_strips: Any
+    panels: Any  # ends of the panels [m], which change
+    touch: Any  # approach at first touch [m]
+    skew: Any  # share of the strips' offsets along x that counts
+    unit: Any  # 1/(pi E*)
+    by_load: Any
+    amount: Any  # load [N] or approach above first touch [m]
+    tolerance: Any
+
+
+@kernel
+def _reset(problem, warm, state):
+    """Set what belongs to a new start."""
+    state.begun, state.warm = state.number, warm
+    state.approach = problem.result.approach - problem.touch  # ANALYN's, until the first pressures are known
+    state.mixed, state.descending, state.searched = 0, 0, 0
+    state.last_error, state.best = math.inf, math.inf
+
+
+@kernel
+def _start_afresh(problem, state):
+    """Start from ANALYN's patches, under yaw from turned ellipses instead of them."""
+    own, panels = problem.own, problem.panels
+    strips, vectors, n = own.strips, own.space.vectors, own.rule.across.nodes.size
+    state.n_panels = start_panels(problem.n_strips, n, strips, problem.result, panels, own.rule.cosines, vectors)
+    if problem.skew > 0.0:
+        turn_panels(problem.sep, state.n_panels, n, strips, problem.skew, problem.by_load, panels, vectors)
+    _reset(problem, 0, state)
+
+
+@kernel
+def begin(problem, n_panels, most, state):
+    """Set the state before the first of `most` iterations. The last solution left `n_panels` panels, 0 for a cold start."""
+    state.number, state.error, state.load, state.exact, state.converged = 0, math.inf, 0.0, 0, 0
+    # a warm start that finds no rest leaves the cold one at least as many iterations, or takes all
+    state.patience = WARM if most >= 2 * WARM else most
+    if n_panels > 0:
+        state.n_panels = n_panels
+        _reset(problem, 1, state)
+    else:
+        _start_afresh(problem, state)
+
+
+@kernel
+def _note(problem, state, error, moved, approach, n_panels):
+    """Keep what an iteration found, for who wants to see it (`contact.trace`)."""
+    iterates, panels = problem.own.space.iterates, problem.panels
+    row = iterates[min(state.number, iterates.shape[0] - 1)]
+    row[Iterate.ERROR], row[Iterate.MOVED], row[Iterate.APPROACH] = error, moved, approach
+    row[Iterate.PANELS], row[Iterate.EVENTS] = n_panels, state.events
+    for k in range(2 * n_panels):
+        row[Iterate.ENDS + k] = panels[k]
+
+
+@kernel
+def _note_event(problem, state, event):
+    """Keep an event of this iteration, which changes the panels for the next one."""
+    iterates = problem.own.space.iterates
+    state.events += event
+    iterates[min(state.number, iterates.shape[0] - 1), Iterate.EVENTS] = state.events
+
+
+@kernel
+def _evaluate(problem, state):
+    """Find pressures p, approach delta and residuals r of the present unknowns. Return whether they are finite numbers.
+
+    Where a seventh of a panel is idle, it is cut off and the next iteration has other strips. Then only the pressures
+    count, and the residuals of the ends. Panels without load are removed.
+    """
+    own, panels, skewed = problem.own, problem.panels, problem.skew > 0.0
+    vectors, n, age = own.space.vectors, own.rule.across.nodes.size, state.number - state.begun
+    state.error, state.load = math.inf, 0.0
+    state.approach = find_pressures(problem, state.approach, state.n_panels)
+    if not abs(state.approach) < math.inf:
+        return False
+    cut = age < FREEZE and have_idle_part(n, state.n_panels, vectors)
+    if not cut:
+        edge_displacements(panels, state.n_panels, own, skewed, problem.unit)
+    state.error, state.load = fill_residuals(n, n * state.n_panels, state.approach, cut, skewed, vectors)
+    before = state.n_panels
+    state.n_panels = remove_unloaded(n, before, panels, vectors)
+    if state.n_panels == 0:
+        return False
+    lost = state.n_panels < before
+    state.moved = end_moves(problem.sep.y, n, state.n_panels, panels, own.rule.cosines, vectors, age >= FREEZE)
+    if not cut:
+        note_sides(n, state.n_panels, panels, vectors, state.mixed == 0 or lost)
+    state.cut, state.anew = 1 if cut else 0, 1 if lost or age == FREEZE else 0
+    state.events += (Event.CUT.value if cut else 0) + (Event.LOST.value if lost else 0)
+    state.events += Event.FIXED.value if age == FREEZE else 0
+    _note(problem, state, state.error / state.load, state.moved, state.approach, state.n_panels)
+    return True
+
+
+@kernel
+def _can_descend(problem, state):
+    """Return whether there is a Jacobian for every panel: its loaded strips lie side by side, and none is cut off now."""
+    rule, vectors = problem.own.rule, problem.own.space.vectors
+    n = rule.across.nodes.size
+    plain = PLAIN_SKEWED if problem.skew >= 1.0 else PLAIN
+    if rule.descent.shape[1] != n or state.number - state.begun >= plain or state.cut != 0:
+        return False
+    runs = 0
+    for p in range(state.n_panels):
+        runs += 1 if has_one_run(n, vectors[Vector.P, p * n : p * n + n]) else 0
+    return runs == state.n_panels
+
+
+@kernel
+def _fill_step(problem, state):
+    """Fill the step s of all unknowns.
+
+    s = -J⁻¹ r with the Jacobian J of the ellipse with a panel's a/b, from iteration 22 (18) on and with idle strips between
+    loaded ones s = r. Both fixed-point steps are mixed with the last ones by Anderson's method. The mixing begins anew where
+    the unknowns or the kind of step change, and where the residual has doubled.
+    """
+    own, panels, skewed = problem.own, problem.panels, problem.skew > 0.0
+    rule, vectors, n, age = own.rule, own.space.vectors, own.rule.across.nodes.size, state.number - state.begun
+    plain = PLAIN_SKEWED if problem.skew >= 1.0 else PLAIN
+    frozen, before = age >= FREEZE, state.descending
+    state.descending = 1 if _can_descend(problem, state) else 0
+    doubled = state.error > 2.0 * state.last_error * state.load
+    if state.anew != 0 or doubled or state.descending != before or age >= plain:
+        state.mixed = 0
+    if state.descending != 0:
+        if state.mixed > 0:
+            damp_turns(n, state.n_panels, panels, vectors)
+        for p in range(state.n_panels):
+            width = panels[2 * p + 1] - panels[2 * p]
+            descend(p * n, n, width, rule.descent, vectors, frozen)
+            if skewed:
+                descend_offsets(p * n, n, width, rule.descent, vectors)
+    elif age > plain and skewed and state.cut == 0:
+        halve_turns(n * state.n_panels, vectors)
+    state.left = 0.0
+    if state.cut == 0:
+        state.left = mix(n, state.n_panels, panels, vectors, state.load, state.mixed, skewed, own.space.lu)
+
+
+@kernel
+def _search(problem, state, least):
+    """Look for missed contact: an overlap above `least` times the approach outside the panels, which then grow.
+
+    Return whether there is any. Where a panel is added, the others take their step and need not wait for it.
+    """
+    own, panels, vectors, before = problem.own, problem.panels, problem.own.space.vectors, state.n_panels
+    state.searched = 1
+    state.n_panels, found = extend_to_ghosts(
+        problem.sep, problem.touch, state.approach, least, problem.unit, before, panels, own
+    )
+    if found:
+        state.found, state.mixed, state.best = 1, 0, math.inf
+        _note_event(problem, state, Event.FOUND.value)
+        if state.n_panels > before:
+            advance(own.rule.across.nodes.size, before, panels, vectors, problem.skew > 0.0)
+    return found
+
+
+@kernel
+def _take(problem, state):
+    """Take the step, or cut off idle parts. The ends stay within their brackets. Panels that overlap are joined."""
+    own, panels, vectors = problem.own, problem.panels, problem.own.space.vectors
+    n, age = own.rule.across.nodes.size, state.number - state.begun
+    if state.cut != 0:
+        cut_idle(n, state.n_panels, panels, own.rule.cosines, vectors)
+        state.mixed = 0
+    elif state.found == 0:
+        if BRACKET <= age < FREEZE:
+            keep_between(n, state.n_panels, panels, vectors)
+        advance(n, state.n_panels, panels, vectors, problem.skew > 0.0)
+        state.mixed += 1
+    state.n_panels, joined = join_panels(n, state.n_panels, panels, own.rule.cosines, vectors)
+    if joined:
+        state.mixed, state.best = 0, math.inf
+        _note_event(problem, state, Event.JOINED.value)
+
+
+@kernel
+def accept(problem, state):
+    """Return whether the unknowns are at rest and nothing lies outside the panels. Otherwise change them by the step.
+
+    With the load-weighted mean |r| of half lengths and offsets, the largest move m of an end over its width, and the
+    tolerance ε, they are at rest if |r| < ε and m < 2ε. With steps by the Jacobian, whose error is a quarter of r, they are
+    if |r| and m < .4√ε and if the mixing leaves less than 4ε of the step, which is then taken. Skewed strips with fixed
+    ends, which come to rest slowly, are left at |r| < `ACCEPTABLE`.
+    """
+    age, error, moved, tolerance = state.number - state.begun, state.error, state.moved, problem.tolerance
+    close = CLOSE * math.sqrt(tolerance)
+    exact = state.cut == 0 and error < tolerance * state.load and moved < 2.0 * tolerance
+    settled = state.descending != 0 and state.left < LEFT * tolerance and error < close * state.load and moved < close
+    calm = problem.skew > 0.0 and age >= FREEZE and state.cut == 0 and error < ACCEPTABLE * state.load
+    state.found, state.exact = 0, 1 if exact else 0
+    if exact or settled or calm:
+        if not _search(problem, state, GHOST):
+            state.converged = 1 if exact or settled else 0
+            return True
+    elif state.searched == 0 and state.cut == 0:
+        _search(problem, state, EARLY_GHOST)
+    _take(problem, state)
+    return False
+
+
+@kernel
+def _keep_best(problem, state):
+    """Store half lengths, offsets and ends in the rows BEST of the best iterate since the ends were fixed."""
+    panels, vectors, n = problem.panels, problem.own.space.vectors, problem.own.rule.across.nodes.size
+    if state.anew != 0:
+        state.best = math.inf
+    if state.number - state.begun < FREEZE or state.cut != 0 or not state.last_error < state.best:
+        return
+    state.best = state.last_error
+    for i in range(n * state.n_panels):
+        vectors[Vector.BEST, i], vectors[Vector.OFFSET_BEST, i] = vectors[Vector.LN_A, i], vectors[Vector.OFFSET, i]
+    for p in range(state.n_panels):
+        vectors[Vector.BEST, p * n], vectors[Vector.BEST, p * n + n - 1] = panels[2 * p], panels[2 * p + 1]
+
+
+@kernel
+def _take_best(problem, state):
+    """Restore the half lengths, ends and offsets that `_keep_best` stored."""
+    panels, vectors, n = problem.panels, problem.own.space.vectors, problem.own.rule.across.nodes.size
+    for p in range(state.n_panels):
+        first, last = p * n, p * n + n - 1
+        panels[2 * p], panels[2 * p + 1] = vectors[Vector.BEST, first], vectors[Vector.BEST, last]
+        for i in range(first, last + 1):
+            vectors[Vector.LN_A, i] = vectors[Vector.BEST, min(max(i, first + 1), last - 1)]
+            vectors[Vector.OFFSET, i] = vectors[Vector.OFFSET_BEST, i]
+        vectors[Vector.ACTIVE, first : last + 1] = 1.0
+    state.error, state.load = state.best, 1.0
+
+
+@kernel
+def step(problem, state):
+    """Make one iteration. Return whether it is the last one.
+
+    A warm start that does not come to rest, or has no solution, is given up for a cold one.
+    """
+    state.events = 0
+    if state.warm != 0 and state.number == state.patience:
+        _start_afresh(problem, state)
+        state.events = Event.AGAIN.value
+    _note(problem, state, math.inf, 0.0, 0.0, 0)
+    if not _evaluate(problem, state):
+        state.patience = state.number + 1
+        return state.warm == 0
+    _fill_step(problem, state)
+    state.last_error = state.error / state.load
+    _keep_best(problem, state)
+    return accept(problem, state)
+
+
+@kernel
+def finish(problem, state):
+    """Leave the pressures of the final unknowns: those at rest, or else the best ones."""
+    if state.converged != 0 and state.exact != 0:
+        return
+    if state.converged != 0:
+        advance(
+            problem.own.rule.across.nodes.size,
+            state.n_panels,
+            problem.panels,
+            problem.own.space.vectors,
+            problem.skew > 0.0,
+        )
+    elif state.n_panels > 0 and state.best * state.load < state.error:
+        _take_best(problem, state)
+    state.approach = find_pressures(problem, state.approach, state.n_panels)
