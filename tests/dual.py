@@ -49,7 +49,7 @@ class Dual:
         return Dual(self.x / o.x, (self.d - self.x / o.x * o.d) / o.x)
 
     def __rtruediv__(self, o):
-        return Dual(o / self.x, -o / self.x / self.x * self.d)
+        return Dual(o / self.x, -o / self.x / self.x * self.d if self.d != 0.0 else 0.0)
 
     def __pow__(self, o):
         if type(o) is Dual:
@@ -201,14 +201,22 @@ def plain(module: str, name: str) -> Any:
 class Records(list):
     """Records that are copied into their places, as numpy does."""
 
+    def __getitem__(self, at):
+        found = super().__getitem__(at)
+        return Records(found) if isinstance(at, slice) else found
+
     def __setitem__(self, at, record):
-        vars(super().__getitem__(at)).update(vars(record))
+        vars(self[at]).update(vars(record))
+
+    @property
+    def size(self) -> int:
+        return len(self)
 
 
 def record(of: Any) -> SimpleNamespace:
     """Return a copy of a numpy record whose members may be dual."""
     members = of.dtype.names
-    return SimpleNamespace(**{name: of[name].copy() if of[name].ndim else of[name].item() for name in members})
+    return SimpleNamespace(**{name: of[name].astype(object) if of[name].ndim else of[name].item() for name in members})
 
 
 def copied(of: Any) -> Any:
