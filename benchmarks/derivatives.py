@@ -157,7 +157,8 @@ def of_patches(n: int, closely: bool) -> list[dict[str, Any]]:
 def table(title: str, rows: list[dict[str, Any]]) -> None:
     """Print the shares of kinks and of right columns, and the errors."""
     print(
-        f"\n{title}: column, cases, kink or noise within the step; error of the others: median, 95 %, largest, within {RIGHT:g}, {GOAL:g}"
+        f"\n{title}: column, cases, kink or noise within the step; error of the others: median, 95 %, largest, "
+        f"within {RIGHT:g}, {GOAL:g}"
     )
     for name in dict.fromkeys(row["name"] for row in rows):
         of = [row for row in rows if row["name"] == name]

@@ -22,7 +22,7 @@ from contact.core.calls import Entry
 class Dual:
     """A number and its derivative."""
 
-    __slots__ = ("x", "d")
+    __slots__ = ("d", "x")
     __array_priority__ = 1.0
 
     def __init__(self, x: float, d: float = 0.0) -> None:
@@ -165,9 +165,7 @@ def _choices(spaces: dict[str, dict[str, Any]]) -> dict[tuple[str, str], Any]:
         lines = ast.parse(inspect.getsource(sys.modules[name])).body
         calls = [line for line in lines if isinstance(line, ast.Expr | ast.For) and "chosen_by(" in ast.unparse(line)]
         exec(compile(ast.Module(calls, []), name, "exec"), {**space, "chosen_by": choose})
-    return {
-        stub: lambda first, *rest, of=chosen: of[type(first)](first, *rest) for stub, chosen in kernels.items()
-    }
+    return {stub: lambda first, *rest, of=chosen: of[type(first)](first, *rest) for stub, chosen in kernels.items()}
 
 
 @cache

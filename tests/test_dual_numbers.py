@@ -67,7 +67,8 @@ def test_columns_of_approach_and_load(normal):
     assert value(result.N) == pytest.approx(given.N, rel=1e-9)
     by_approach = np.array([slope(getattr(result, name)) for name in ANSWERS])
     loaded = solver.solve(SEPARATION, CREEPAGE, load=LOAD, derivatives=True)
-    assert given.jacobian is not None and loaded.jacobian is not None
+    assert given.jacobian is not None
+    assert loaded.jacobian is not None
     assert scaled(given.jacobian.values[:, 3] - by_approach, by_approach) < 3e-5
     by_load = by_approach / by_approach[3]
     assert scaled(loaded.jacobian.values[:, 3] - by_load, by_load) < 3e-5
