@@ -43,8 +43,8 @@ MU, SPEED = 3, 4
 #: Rows of a column: force and moment, the height, and the normal forces' upward part.
 HEIGHT, UPWARD, ROWS = 6, 7, PAIR_ROWS
 #: The step of the height over the approach is that of `jacobian`. The others change the gap by about as much: by the slope of
-#: the contact [-], at least the first number; by the rise of a flange over its yaw, at least the second one [m]; by the lever of
-#: a rail's roll [m].
+#: the contact [-], at least the first number; by the rise of a flange over its yaw, at least the second one [m]; by the lever
+#: of a rail's roll [m].
 _LEAST_SLOPE, _LEAST_RISE, _RAIL_LEVER = 0.1, 0.01, 0.04
 #: A patch of the middle pose, of a neighbour with the same patches, of one with others, or the one of the last solution.
 _MIDDLE, _NEAR, _OTHER, _SOLVED = 0, 1, 2, 3

@@ -298,13 +298,14 @@ class Simulation:
         motion.prepare_contacts(
             self.model, self.state, self.benches.motions, self.scratch, float(speed_at(self.model.track, self.distance))
         )
-        forces, jacobians = np.zeros((len(self._pairs), 6)), np.zeros((len(self._pairs), 6, len(GIVEN)))
+        n_given = len(GIVEN.names or ())
+        forces, jacobians = np.zeros((len(self._pairs), 6)), np.zeros((len(self._pairs), 6, n_given))
         for w, pair in enumerate(self._pairs):
             given, here, case = self.scratch.given[w], self.scratch.seats[w], pair.bench.case
             case[0] = self.benches.cases[w]
             case["mu"], case["kinetic"], case["speed"] = here["friction"], here["kinetic"], given["vx"]
             self._require_on_rail(-1 - w if pair.solve_given(Height.GIVEN, 0.0, given) < 0 else 0)
-            jacobians[w] = pair.derive_given(Height.GIVEN, given).jacobian[:6, : len(GIVEN)]
+            jacobians[w] = pair.derive_given(Height.GIVEN, given).jacobian[:6, :n_given]
             forces[w] = [pair.bench.total[0][name] for name in ("Fx", "Fy", "Fz", "Mx", "My", "Mz")]
         return forces, jacobians
 
