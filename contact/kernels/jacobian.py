@@ -24,8 +24,9 @@ ROWS, COLUMNS = 6, 5
 AMOUNT, MU, POWER = 3, 4, 5
 #: Step of creepages and friction, over those at which the whole patch slips. Elements hardly ever change their state within it.
 _STEP = 1e-6
-#: Step of the load, or of the penetration, over itself, and the tolerance of both solutions.
-_LOAD_STEP, TOLERANCE = 3e-4, 1e-8
+#: Step of the load or the penetration, over itself: where strips follow by a tangent or without iteration, and where both
+#: solutions are iterated, to this tolerance. Its noise over the step is about what the curvature over a larger step would be.
+SMALL, ITERATED, TOLERANCE = 3e-5, 1e-4, 1e-8
 #: Steps of creepage [-], spin [1/m] and friction [-] where there is no friction.
 _LEAST, _LEAST_SPIN, _LEAST_FRICTION = 1e-9, 1e-6, 1e-12
 
@@ -214,10 +215,11 @@ def derive_solved(sep, n, cases, own, results, jacobian):
     by_load = cases[0].load_kind != LoadKind.APPROACH
     over = results[0].approach - results[0].touch
     if has_tangent(sep, cases[0], own, results[0]):
-        _follow(sep, n, _LOAD_STEP * max(over, 0.0), cases, own, results, jacobian)
+        _follow(sep, n, SMALL * max(over, 0.0), cases, own, results, jacobian)
         amount = jacobian[3, AMOUNT] - results[0].N if by_load else jacobian[4, AMOUNT] - results[0].approach
     else:
-        amount = _LOAD_STEP * max(cases[0].amount if by_load else over, 0.0)
+        share = ITERATED if cases[0].normal_family == NormalFamily.STRIP_HALFSPACE else SMALL
+        amount = share * max(cases[0].amount if by_load else over, 0.0)
         n = _press_closely(sep, amount, cases, own, results[1])
         if n > 0:
             roll_case(sep, n, cases[1], own, results[1])

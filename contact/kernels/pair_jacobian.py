@@ -20,7 +20,7 @@ from contact.kernels.geometry.frame import slip
 from contact.kernels.geometry.prepare import move
 from contact.kernels.geometry.section import tilted
 from contact.kernels.geometry.settle import settle
-from contact.kernels.jacobian import TOLERANCE, creepage_step, has_tangent, is_even, scale_friction
+from contact.kernels.jacobian import ITERATED, SMALL, TOLERANCE, creepage_step, has_tangent, is_even, scale_friction
 from contact.kernels.memory import CREEPS, PAIR_ROWS
 from contact.kernels.normal.tangent import follow, loaded_strips
 from contact.kernels.pair import (
@@ -42,9 +42,10 @@ from contact.kernels.together import COPIES, fits_together, roll_together, sum_c
 MU, SPEED = 3, 4
 #: Rows of a column: force and moment, the height, and the normal forces' upward part.
 HEIGHT, UPWARD, ROWS = 6, 7, PAIR_ROWS
-#: Step of the height over the approach. The others change the gap by about as much: by the slope of the contact [-], at least
-#: the first number; by the rise of a flange over its yaw, at least the second one [m]; by the lever of a rail's roll [m].
-_STEP, _LEAST_SLOPE, _LEAST_RISE, _RAIL_LEVER = 3e-4, 0.1, 0.03, 0.04
+#: The step of the height over the approach is that of `jacobian`. The others change the gap by about as much: by the slope of
+#: the contact [-], at least the first number; by the rise of a flange over its yaw, at least the second one [m]; by the lever
+#: of a rail's roll [m].
+_LEAST_SLOPE, _LEAST_RISE, _RAIL_LEVER = 0.1, 0.01, 0.04
 #: A patch of the middle pose, of a neighbour with the same patches, of one with others, or the one of the last solution.
 _MIDDLE, _NEAR, _OTHER, _SOLVED = 0, 1, 2, 3
 #: Relative steps of the coefficient of friction and of the speed.
@@ -203,22 +204,27 @@ def _take_solved(bench, aside):
 
 @kernel
 def _solve_middle(n, place, aside):
-    """Solve the patches of the pose itself, with their derivatives by creepages. Return the largest approach and slope."""
+    """Solve the patches of the pose itself, with their derivatives by creepages.
+
+    Return a step of the height, and the largest slope.
+    """
     bench = aside.bench
-    approach, steepest = 0.0, _LEAST_SLOPE
+    approach, steepest, share = 0.0, _LEAST_SLOPE, SMALL
     for k in range(n):
         samples, own = _own_of(k, aside)
         strips = _solve_patch(k, place, samples, own, aside)
         aside.patches[k] = bench.search.patches[k]
         approach = max(approach, bench.contacts[k].approach)
         steepest = max(steepest, abs(math.tan(bench.contacts[k].angle)))
+        if aside.linear[k] == 0.0 and bench.case[0].normal_family == NormalFamily.STRIP_HALFSPACE:
+            share = ITERATED
         if strips > 0:
             _roll_moved(k, samples, strips, own, aside)
     for i in range(ROWS):
         aside.middle[i] = aside.forces[i]
     for i in range(bench.memory.size):
         aside.start[i] = bench.memory[i]
-    return approach, steepest
+    return share * approach, steepest
 
 
 @kernel
@@ -237,9 +243,8 @@ def _solve_neighbour(n, holds, aside):
 
 
 @kernel
-def _pose_step(j, approach, steepest, motion):
-    """Return the step of column j, a member of the pose or the rail's roll."""
-    height = _STEP * approach
+def _pose_step(j, height, steepest, motion):
+    """Return the step of column j, a member of the pose or the rail's roll, for a step of the height."""
     if j == Moved.Z:
         return height
     if j == Moved.Y:
@@ -350,7 +355,7 @@ def derive(bench, is_there, by_load, aside):
         return n
     if bench.memory[0] != n:
         near.memory[:] = 0.0
-    approach, steepest = _solve_middle(n, _SOLVED if solved else _MIDDLE, aside)
+    height, steepest = _solve_middle(n, _SOLVED if solved else _MIDDLE, aside)
     # a loop over a tuple would leave an exception in the library
     for j in range(Moved.RAIL_ROLL_RATE + 1):
         if Moved.VX <= j <= Moved.SPIN or j == Moved.RAIL_ROLL_RATE:
@@ -358,7 +363,7 @@ def derive(bench, is_there, by_load, aside):
     for j in range(Moved.RAIL_ROLL + 1):
         if j <= Moved.YAW or j == Moved.RAIL_ROLL:
             rise = _rise(j, n, mirror, aside) if by_load else 0.0
-            _derive_by_pose(j, _pose_step(j, approach, steepest, near.search.motion[0]), rise, n, aside)
+            _derive_by_pose(j, _pose_step(j, height, steepest, near.search.motion[0]), rise, n, aside)
     for j in range(Moved.AMOUNT):
         for k in range(n):
             for c in range(CREEPS):

@@ -288,13 +288,8 @@ class WheelRailPair(AnyPair):
     def _derive(
         self, mode: int, given: np.record, load: float | None, penetration: float | None, vertical: float | None
     ) -> PairJacobian:
-        """Return the derivatives of the last solution."""
-        constant = isinstance(self.pair, Pair)
-        if self._aside is None:
-            self._aside = workspace.aside(self._size, self.bench)
-            self._packed_aside = pack(Aside[Search] if constant else Aside[SurfaceSearch], self._aside)
-        aside = self._aside
-        (derive_on_profiles if constant else derive_on_surfaces)(mode, given, self._packed, self._packed_aside)
+        """Return the derivatives of the last solution, labelled."""
+        aside = self.derive_given(mode, given)
         amounts = {"load": load, "penetration": penetration, "vertical": vertical}
         name = next((name for name, amount in amounts.items() if amount is not None), None)
         shown = _ALL if name else _WITHOUT_AMOUNT
@@ -340,6 +335,15 @@ class WheelRailPair(AnyPair):
     def solve_given(self, mode: int, amount: float, given: np.record) -> int:
         """Call the kernel for the record GIVEN of a motion and return its code. The result is in `bench`."""
         return int(self._solve(mode, amount, given, self._packed))
+
+    def derive_given(self, mode: int, given: np.record) -> Aside:
+        """Call the kernel of the derivatives of the last solution, of this motion. They are in what is returned."""
+        constant = isinstance(self.pair, Pair)
+        if self._aside is None:
+            self._aside = workspace.aside(self._size, self.bench)
+            self._packed_aside = pack(Aside[Search] if constant else Aside[SurfaceSearch], self._aside)
+        (derive_on_profiles if constant else derive_on_surfaces)(mode, given, self._packed, self._packed_aside)
+        return self._aside
 
     def _set_rail(self, rail: ElasticRail) -> None:
         if rail is not self._rail:

@@ -1,7 +1,8 @@
-"""Linear behaviour of a vehicle: frequencies, damping and the linear critical speed, from its own kernel.
+"""Linear behaviour of a vehicle: frequencies, damping and the linear critical speed, from its own kernels.
 
-A step of 1 µs from a displaced state gives the accelerations there, so the state matrix is that of the simulated vehicle, with
-all its contacts. Nothing is derived a second time.
+A step of 1 µs from a displaced state gives the accelerations there, so the state matrix is that of the simulated vehicle. Its
+contacts are solved once. At the displaced states their forces follow from the derivatives of that solution
+(`contact.kernels.pair_jacobian`), or, with an amplitude, from a solution of each state.
 """
 
 from __future__ import annotations
@@ -9,18 +10,26 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 from numpy.typing import NDArray
 
+from contact.core import pack
 from contact.errors import ContactError
 from ..wheelset.stability import onset
-from .kernels.layout import Axis
+from .kernels import motion
+from .kernels.frames import speed_at
+from .kernels.layout import Axis, Model, Scratch, State
 from .simulation import Simulation
 
 Array = NDArray[np.float64]
 
 _INSTANT = 1e-6  # step from which the accelerations are taken [s]
+#: Displacement at which the rest is linear but for round-off [m], [rad], [m/s], [rad/s].
+_SMALL = 1e-4
+#: Members of WHEEL: force and moment.
+_LOADS = ("longitudinal", "lateral", "vertical", "moment_x", "moment_y", "moment_z")
 #: Growth that may be noise of the differences [1/s]: slow motions of a wheelset with soft springs decay with 0.003 to 0.01 1/s.
 NOISE = 0.02
 
@@ -55,9 +64,9 @@ def coordinates(simulation: Simulation, held: tuple[str, ...] = ()) -> list[tupl
 
 
 def state_matrix(
-    simulation: Simulation, amplitude: float = 1e-4, held: tuple[str, ...] = (), step: float = _INSTANT
+    simulation: Simulation, amplitude: float = 0.0, held: tuple[str, ...] = (), step: float = _INSTANT
 ) -> Array:
-    """Return the state matrix of the coordinates and velocities about the present state, by central differences.
+    """Return the state matrix of the coordinates and velocities about the present state.
 
     The spins of the wheelsets follow the other velocities. The rails are part of it if they have a mass.
 
@@ -66,7 +75,8 @@ def state_matrix(
     simulation : Simulation
         On straight ideal track, at rest in its nominal place.
     amplitude : float
-        Displacement [m], [rad]; velocities are displaced by ten times as much per second.
+        0 for the derivatives of the contacts. Else their secants between displacements of this size [m], [rad] to both
+        sides; velocities are displaced by ten times as much per second.
     held : tuple of str
         Names of bodies that do not move.
     step : float
@@ -82,6 +92,7 @@ def state_matrix(
         if simulation.model.rail[0] > 0.0:
             moving.extend((state.rails, (number, side, k)) for side in range(2) for k in range(4))
     kept = [array.copy() for array in state]
+    advance = partial(simulation.advance, step) if amplitude > 0.0 else _linear_step(simulation, step)
 
     def restore() -> None:
         for array, before in zip(state, kept, strict=True):
@@ -90,13 +101,13 @@ def state_matrix(
 
     def rates() -> Array:
         before = np.array([array[at] for array, at in moving])
-        simulation.advance(step)
+        advance()
         return (np.array([array[at] for array, at in moving]) - before) / step
 
     columns = []
     for array, at in moving:
         ends = []
-        size = _size(simulation, array, at, amplitude)
+        size = _size(simulation, array, at, amplitude) if amplitude > 0.0 else _SMALL
         for sign in (1.0, -1.0):
             restore()
             array[at] += sign * size
@@ -104,6 +115,26 @@ def state_matrix(
         columns.append((ends[0] - ends[1]) / (2.0 * size))
     restore()
     return np.array(columns).T
+
+
+def _linear_step(simulation: Simulation, step: float) -> Callable[[], None]:
+    """Return what advances the vehicle by a step, with contacts that are linear about the present state."""
+    forces, jacobians = simulation.derive_contacts()
+    model, scratch = simulation.model, simulation.scratch
+    arrays = pack(Model, model), pack(State, simulation.state), simulation.benches.motions, pack(Scratch, scratch)
+    speed = float(speed_at(model.track, simulation.distance))
+    given, wheels = scratch.given.view(np.float64).reshape(len(forces), -1), scratch.wheels
+    middle = given.copy()
+
+    def advance() -> None:
+        motion.prepare_contacts(*arrays, speed)
+        now = forces + np.einsum("wij,wj->wi", jacobians, given - middle)
+        now[:, 2] *= -1.0  # the vertical force is that on the rail
+        for name, values in zip(_LOADS, now.T, strict=True):
+            wheels[name] = values
+        motion.move(*arrays, step, speed)
+
+    return advance
 
 
 def _size(simulation: Simulation, array: Array, at: tuple[int, ...], amplitude: float) -> float:
@@ -116,7 +147,7 @@ def _size(simulation: Simulation, array: Array, at: tuple[int, ...], amplitude: 
     return amplitude * (0.01 if pressing else 1.0)
 
 
-def modes(simulation: Simulation, amplitude: float = 1e-4, held: tuple[str, ...] = ()) -> list[Mode]:
+def modes(simulation: Simulation, amplitude: float = 0.0, held: tuple[str, ...] = ()) -> list[Mode]:
     """Return the modes of a vehicle, slowest first. Each conjugate pair appears once."""
     matrix = state_matrix(simulation, amplitude, held)
     values, vectors = np.linalg.eig(matrix)
@@ -137,14 +168,14 @@ def amplification(simulation: Simulation, step: float) -> float:
     return float(np.abs(np.linalg.eigvals(np.eye(len(matrix)) + step * matrix)).max())
 
 
-def growth(simulation: Simulation, amplitude: float = 1e-4) -> float:
+def growth(simulation: Simulation, amplitude: float = 0.0) -> float:
     """Return the largest real part of the eigenvalues of motions that oscillate [1/s]; negative if all decay."""
     return max(mode.growth for mode in modes(simulation, amplitude) if mode.frequency > 0.05)
 
 
 def critical_speed(
     at_speed: Callable[[float], Simulation],
-    amplitude: float = 1e-4,
+    amplitude: float = 0.0,
     bounds: tuple[float, float] = (5.0, 150.0),
     tolerance: float = 0.1,
 ) -> float:
@@ -155,7 +186,7 @@ def critical_speed(
     at_speed : callable
         Returns the vehicle at rest on straight ideal track at a speed [m/s].
     amplitude : float
-        Lateral amplitude of the contacts' linearisation [m].
+        As for `state_matrix`, 0 for small motions.
     bounds : (float, float)
         [m/s]. The result is inf if all motions decay at the upper bound, and the lower bound if one grows there.
 

@@ -16,7 +16,9 @@ from contact.friction import Friction, as_friction
 from contact.geometry.profile import Profile
 from contact.geometry.surfaces import SurfacePair, WheelSurface
 from contact.geometry.wheelset import Pair, Pose, Velocity
+from contact.kernels.enumerations import Height
 from contact.kernels.memory import Ledger
+from contact.kernels.records import GIVEN
 from contact.material import STEEL, Material
 from contact.pair import WheelRailPair
 from contact.registry import DEFAULT_NORMAL, DEFAULT_TANGENTIAL
@@ -281,6 +283,32 @@ class Simulation:
             **self._uneven_memories,
         }
 
+    def derive_contacts(self) -> tuple[Array, Array]:
+        """Return force and moment of every wheel at the present state, and their derivatives by `scratch.given`.
+
+        Shapes (wheels, 6) and (wheels, 6, members of GIVEN). Only on profiles.
+
+        Raises
+        ------
+        ContactError
+            If a contact is on surfaces, or if a wheel has left its rail.
+        """
+        if isinstance(self._stepper, UnevenWheels):
+            raise ContactError("a contact on surfaces changes along the way and has no derivatives of a steady motion")
+        motion.prepare_contacts(
+            self.model, self.state, self.benches.motions, self.scratch, float(speed_at(self.model.track, self.distance))
+        )
+        n_given = len(GIVEN.names or ())
+        forces, jacobians = np.zeros((len(self._pairs), 6)), np.zeros((len(self._pairs), 6, n_given))
+        for w, pair in enumerate(self._pairs):
+            given, here, case = self.scratch.given[w], self.scratch.seats[w], pair.bench.case
+            case[0] = self.benches.cases[w]
+            case["mu"], case["kinetic"], case["speed"] = here["friction"], here["kinetic"], given["vx"]
+            self._require_on_rail(-1 - w if pair.solve_given(Height.GIVEN, 0.0, given) < 0 else 0)
+            jacobians[w] = pair.derive_given(Height.GIVEN, given).jacobian[:6, :n_given]
+            forces[w] = [pair.bench.total[0][name] for name in ("Fx", "Fy", "Fz", "Mx", "My", "Mz")]
+        return forces, jacobians
+
     def advance(self, h: float, steps: int = 1) -> None:
         """Advance by `steps` steps of `h` [s].
 
@@ -289,7 +317,10 @@ class Simulation:
         ContactError
             If a wheel leaves its rail. The message has wheel and place.
         """
-        code = self._stepper.advance(float(h), int(steps))
+        self._require_on_rail(self._stepper.advance(float(h), int(steps)))
+
+    def _require_on_rail(self, code: int) -> None:
+        """Raise ContactError for the code of a wheel that has left its rail."""
         if code < 0:
             axle, side = divmod(-1 - code, 2)
             raise ContactError(

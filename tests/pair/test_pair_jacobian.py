@@ -171,3 +171,35 @@ def test_a_jacobian_is_read_by_names_and_shown_with_units(right):
     with pytest.raises(ContactError, match=r"columns are pose\.y, pose\.z"):
         found["Fx", "y"]
     assert right.solve(TREAD, derivatives=True).jacobian.columns[-2] == "irregularity.roll_rate"
+
+
+@pytest.mark.parametrize("normal", ["hertz", "kik_piotrowski", "stripes_ab", "strip_halfspace"])
+def test_columns_under_a_load_are_those_at_the_height_that_the_method_itself_finds(normal):
+    """A single patch under a load is solved in the separation at ANALYN's height, whose slope is up to 1e-2 another one."""
+    pair = WheelRailPair(Pair(profile.s1002(), profile.rail_60e1(inclination=1 / 40)), normal=normal)
+    pair.bench.case["tolerance"] = 1e-10
+    pose, velocity, load = Pose(y=-4e-3, roll=-1e-3, yaw=5e-3), Velocity(20.0, y=0.01, spin=-20.01 / 0.46), 60e3
+
+    def at(z: float, y: float) -> tuple[np.ndarray, float]:
+        pair.forget()
+        found = pair.solve(dataclasses.replace(pose, y=pose.y + y, z=z), velocity)
+        carried = sum(each.N * np.cos(each.angle) for each in found.contacts)
+        return np.array([*found.force, *found.moment]), carried - load
+
+    def under_load(y: float) -> np.ndarray:
+        low = pair.solve(dataclasses.replace(pose, y=pose.y + y), velocity, load=load).z
+        high = low + 1e-7
+        (_, before), (wrench, after) = at(low, y), at(high, y)
+        for _ in range(8):
+            if abs(after) < 1e-7:
+                break
+            low, high, before = high, high - after * (high - low) / (after - before), after
+            wrench, after = at(high, y)
+        return wrench
+
+    found = pair.solve(pose, velocity, load=load, derivatives=True)
+    assert found.jacobian is not None
+    h = 2e-7
+    wanted = (under_load(h) - under_load(-h)) / (2.0 * h)
+    column = found.jacobian.values[:6, found.jacobian.columns.index("pose.y")]
+    assert np.abs(column - wanted).max() < 1e-4 * np.abs(wanted).max()

@@ -27,7 +27,7 @@ def test_directional_derivatives_are_those_of_the_outputs(native_pair, known, h)
     """Each component of the wrench is compared with central differences of other steps.
 
     Under a load the height follows from an iteration, whose tolerance is in the quotients: up to 1.6e-4 was measured. The
-    columns of the pose are one-sided differences over 3e-4 of the approach.
+    columns of the pose are those of the height that the method itself finds, the outputs those of ANALYN's height.
     """
     fmu = native_pair("ModelExchange")
     fmu.update({**MOTION, "pose.yaw": 1e-3})
@@ -41,10 +41,10 @@ def test_directional_derivatives_are_those_of_the_outputs(native_pair, known, h)
 def test_derivatives_of_random_motions(native_pair):
     """They agree with the slope of force and moment where these are smooth, for every continuous method.
 
-    By velocities and friction to 1e-3: where the strips have no tangent, the derivative is that of a closer solution. By
-    displacements and the load to 1e-2, as one-sided differences over 3e-4 of the approach: 6e-3 was measured, but for one
-    pose by Kik and Piotrowski's method (.11), where strips come within the step. The quotients use wider and narrower steps
-    than differences of the FMU, so that they see every kink within its steps.
+    To 1e-3, but for displacements and the load under a load, where 1e-2 is asked: there the outputs of a single patch are
+    those of the separation at ANALYN's height, 2 % of the approach away at most. Forces differ by 3e-5 of the load, but
+    slopes by up to 1e-2, in one case .11 (`tests/pair/test_pair_jacobian.py`). The quotients use wider and narrower steps than
+    differences of the FMU, so that they see every kink within its steps.
     """
     fmu, tally, displaced = native_pair("ModelExchange"), Tally(), Tally()
     continuous = [method.continuous for method in contact.methods().batched.normal.values()]
@@ -64,13 +64,13 @@ def test_derivatives_of_random_motions(native_pair):
             quotients = [quotient(fmu, WRENCH, {known: 1.0}, share * h) for share in (3.0, 0.7)]
             scale = np.maximum(parts([(0, 1, 2), (3, 4, 5)], quotients[0]), 1e-9 * mu * load / h)
             slopes = derivative(fmu, WRENCH, {known: 1.0})
-            if known.startswith(("pose", "irregularity", "load")):
+            if values["load.kind"] == 1 and known.startswith(("pose", "irregularity", "load")):
                 displaced.add((seed, known), slopes, quotients, 100.0 * scale)
             else:
                 tally.add((seed, known), slopes, quotients, 10.0 * scale)
     print(f"{tally.smooth} and {displaced.smooth} smooth, {len(tally.rough)} and {len(displaced.rough)} not")
     assert not tally.wrong
-    assert len(displaced.wrong) < 0.03 * displaced.smooth, displaced.wrong
+    assert len(displaced.wrong) < 0.05 * displaced.smooth, displaced.wrong  # the columns of that one case
     assert len(displaced.rough) < 0.08 * displaced.smooth
     assert len(tally.rough) < 0.08 * tally.smooth
 

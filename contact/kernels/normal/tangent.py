@@ -40,7 +40,7 @@ from contact.kernels.normal.strip_halfspace import write_strips
 from contact.kernels.rows import Sample, Strip, Tangent, Vector
 
 #: Steps of ln a, of an end over the width of the panel, and of the pressures in the rules of the ends.
-_STEP, _END_STEP, _PRESSURE_STEP = 1e-4, 1e-4, 1e-5
+_STEP, _END_STEP, _PRESSURE_STEP = 1e-6, 1e-6, 1e-6
 #: Distance from a bound of a half length, over itself, below which it counts as at the bound.
 _AT_BOUND = 1e-6
 

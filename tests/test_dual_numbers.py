@@ -1,0 +1,113 @@
+"""Derivatives of the compiled core against the same kernels on dual numbers, which have no step and no truncation."""
+
+import dataclasses
+
+import numpy as np
+import pytest
+
+import contact
+from contact.geometry import profile
+from contact.geometry.wheelset import Pair, Pose, Velocity
+from contact.kernels.enumerations import Height
+from contact.kernels.records import GIVEN
+from contact.pair import WheelRailPair
+from tests import dual
+from tests.dual import Dual, copied, plain, record, slope, value
+
+SEPARATION, CREEPAGE, LOAD = contact.Separation.hertzian(1.1, 0.8), contact.Creepage(1e-3, 5e-4, 0.2), 80e3
+NORMAL, TANGENTIAL = (dict(of) for of in (contact.methods().batched.normal, contact.methods().batched.tangential))
+#: Rows of `Solution.jacobian`.
+ANSWERS = ("Fx", "Fy", "Mz", "N", "approach", "power")
+WRENCH = ("Fx", "Fy", "Fz", "Mx", "My", "Mz")
+
+
+def scaled(error: np.ndarray, wanted: np.ndarray) -> float:
+    """Return the largest error over the largest of the wanted slopes, moments over 5 mm. Some laws have columns of zeros."""
+    unit = np.array([1.0, 1.0, 5e-3, 1.0, 1e-9, 1.0])
+    return float(np.abs(error / unit).max() / max(np.abs(wanted / unit).max(), 1.0))
+
+
+def solver_of(normal: str, tangential: str) -> contact.Solver:
+    made = contact.Solver(normal=normal, tangential=tangential, n_strips=10, n_elements=10)
+    made._case["tolerance"] = 1e-11
+    return made
+
+
+@pytest.mark.parametrize("tangential", TANGENTIAL)
+def test_columns_of_creepage_and_friction(tangential):
+    solver = solver_of("strip_halfspace", tangential)
+    solution = solver.solve(SEPARATION, CREEPAGE, load=LOAD, derivatives=True)
+    assert solution.jacobian is not None
+    for column, member in ((0, "vx"), (1, "vy"), (2, "phi"), (4, "mu")):
+        own, case, result = copied(solver._full), record(solver._two_cases[0]), record(solver._two_results[0])
+        setattr(case, member, Dual(getattr(case, member), 1.0))
+        if member == "mu":
+            case.kinetic = case.mu
+        plain("result", "clear_forces")(result)
+        plain("pipeline", "roll_case")(None, solution.strips.y.size, case, own, result)
+        assert value(result.Fx) == solution.Fx
+        wanted = np.array([slope(getattr(result, name)) for name in ANSWERS])
+        error = solution.jacobian.values[:, column] - wanted
+        assert scaled(error, wanted) < 3e-6 or np.abs(error).max() < 1e-6 * LOAD
+
+
+@pytest.mark.parametrize("normal", NORMAL)
+def test_columns_of_approach_and_load(normal):
+    """The column of the load is that of the approach over the stiffness. The bound is the curvature over the step."""
+    solver = solver_of(normal, "fastrip_mapped")
+    approach = solver.forces(SEPARATION, CREEPAGE, load=LOAD).approach
+    given = solver.solve(SEPARATION, CREEPAGE, approach=approach, derivatives=True)
+    own, case, result = copied(solver._full), record(solver._two_cases[0]), record(solver._two_results[0])
+    own.space.memory[:] = 0.0
+    plain("result", "clear")(result)
+    case.amount = Dual(case.amount, 1.0)
+    samples = copied(SEPARATION.packed.value)
+    n = plain("pipeline", "press_case")(samples, case, own, result)
+    plain("pipeline", "roll_case")(samples, n, case, own, result)
+    assert value(result.N) == pytest.approx(given.N, rel=1e-9)
+    by_approach = np.array([slope(getattr(result, name)) for name in ANSWERS])
+    loaded = solver.solve(SEPARATION, CREEPAGE, load=LOAD, derivatives=True)
+    assert given.jacobian is not None
+    assert loaded.jacobian is not None
+    assert scaled(given.jacobian.values[:, 3] - by_approach, by_approach) < 3e-5
+    by_load = by_approach / by_approach[3]
+    assert scaled(loaded.jacobian.values[:, 3] - by_load, by_load) < 3e-5
+
+
+@pytest.mark.parametrize("side", ["right", "left"])
+@pytest.mark.parametrize("normal", ["analyn", "hertz", "kik_piotrowski", "linder", "semi_winkler", "strip_halfspace"])
+def test_all_columns_of_a_pair(normal, side):
+    """The whole kernel runs on dual numbers: search, frames, creepages, strips and tractions."""
+    profiles = profile.s1002(), profile.rail_60e1(inclination=1 / 40)
+    pair = WheelRailPair(Pair(*profiles, side=side), normal=normal, n_strips=10, n_elements=10)
+    pair.bench.case["tolerance"] = 1e-11
+    pose = Pose(y=3e-3 if side == "right" else -3e-3, yaw=2e-3, roll=1e-3)
+    velocity = Velocity(20.0, y=0.01, yaw=3e-3, spin=-20.01 / 0.46)
+    pose = dataclasses.replace(pose, z=pair.solve(pose, velocity, load=LOAD).z)
+    pair.forget()
+    found = pair.solve(pose, velocity, derivatives=True)
+    assert found.jacobian is not None
+    for column, member in enumerate(GIVEN.names or ()):
+        bench, given = copied(pair.bench), record(pair.pair.given(pose, velocity, None))
+        bench.memory[:] = 0.0
+        setattr(given, member, Dual(getattr(given, member), 1.0))
+        plain("pair", "solve_pair")(Height.GIVEN, 0.0, given, bench)
+        total = bench.total[0]
+        np.testing.assert_allclose([value(total.Fx), value(total.Fy), value(total.Fz)], found.force, rtol=1e-8)
+        wanted = np.array([slope(getattr(total, name)) for name in WRENCH])
+        error = np.abs(found.jacobian.values[:6, column] - wanted).max() / np.abs(wanted).max()
+        assert error < (5e-5 if member in ("y", "z", "roll", "yaw") or member.startswith("rail") else 5e-6), member
+
+
+def test_a_dual_number_does_not_lose_its_derivative_in_silence():
+    with pytest.raises(TypeError):
+        np.zeros(1)[0] = Dual(1.0, 1.0)
+    z = Dual(0.3, 1.0)
+    h = 1e-6
+    for name, of in vars(dual.MATH).items():
+        if callable(of) and name not in ("floor", "atan2", "copysign", "isfinite"):
+            assert slope(of(z)) == pytest.approx((of(0.3 + h) - of(0.3 - h)) / (2.0 * h), rel=1e-8), name
+    assert slope(dual.MATH.atan2(z, 2.0)) == pytest.approx(2.0 / 4.09)
+    assert slope((z**3 - 1.0 / z) ** 0.5 if z > 2.0 else 2.0 - z * z / (1.0 + z)) == pytest.approx(
+        -(2.0 * 0.3 * 1.3 - 0.09) / 1.69
+    )
