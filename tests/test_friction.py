@@ -192,12 +192,14 @@ def test_every_element_has_the_coefficient_of_its_slip_and_sticks_up_to_the_stat
 @pytest.mark.parametrize("tangential", FIELDS)
 def test_memory_never_raises_a_coefficient(tangential):
     for creepage in CREEPAGES:
-        fields = []
+        fields, slips = [], np.array(True)
         for velocity in LOCAL:
             friction = Friction(0.5, 0.2, 0.02, "exponential", velocity=velocity)
             sol = solve(creepage, tangential=tangential, friction=friction)
             fields.append(np.hypot(sol.qx, sol.qy))
-        assert (fields[1] <= fields[0] * (1.0 + 1e-12)).all()
+            slips = slips & ~sol.stick  # with fastrip_mapped the stick zone bears what slip behind it lacks
+        assert slips.any()
+        assert (fields[1] <= fields[0] * (1.0 + 1e-12))[slips].all()
 
 
 @pytest.mark.parametrize("velocity", LOCAL)
@@ -223,6 +225,23 @@ def test_forces_are_continuous_in_the_creepage_where_local_friction_falls_steepl
         friction = Friction(0.5, 0.1, 0.02, "exponential", velocity=velocity)
         Fx = contact.forces(SEPARATION, (xi, 1e-3, 0.2), load=8e4, friction=friction, tangential=tangential).Fx / 4e4
         assert np.abs(np.diff(Fx)).max() < 4e-3
+
+
+@pytest.mark.parametrize(
+    ("creepage", "kinetic", "half_speed", "law"),
+    [
+        ((2.2e-3, -3e-4, 0.0), 0.15, 0.5, "rational"),
+        ((1.5e-3, 1.5e-3, 0.2), 0.15, 0.5, "rational"),
+        ((0.0, 3e-3, 0.0), 0.25, 0.3, "linear"),
+    ],
+)
+def test_the_stick_zone_bears_what_falling_friction_behind_it_lacks(creepage, kinetic, half_speed, law):
+    """With the slip under the static coefficient alone the forces were .021, .018 and .014 of mu N off."""
+    friction = Friction(0.35, kinetic, half_speed, law, velocity="local")
+    options = {"friction": friction, "speed": 60.0}
+    one = solve(creepage, **options)
+    true = solve(creepage, normal="halfspace", tangential="halfspace", **options)
+    assert math.hypot(one.Fx - true.Fx, one.Fy - true.Fy) < 0.01 * 0.35 * one.N
 
 
 def test_methods_with_forces_only_use_the_global_velocity():

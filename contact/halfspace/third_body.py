@@ -27,8 +27,9 @@ Array = NDArray[np.float64]
 
 #: Elements along a strip for linear theory.
 _COARSE = 16
-#: Softening ends at this share of the first yield stress, as in CONTACT.
-_FLOOR = 0.1
+#: Share of the first yield stress that an element has at least when it begins to yield. Within one element it softens on, as in
+#: CONTACT, here to no less than `_LEAST` of that stress.
+_FLOOR, _LEAST = 0.1, 1e-6
 #: Iteration with hardening: largest number of steps, and change of tau_c over the yield stress at its end.
 _MAX_STEPS, _TOLERANCE = 60, 1e-6
 
@@ -44,7 +45,7 @@ class ThirdBody:
     yield_stress : float
         Shear stress at which fresh material yields [Pa], positive; infinite without plasticity.
     hardening : float
-        Rise of the yield stress per plastic shear displacement [Pa/m]; negative if the layer softens, to a tenth at least.
+        Rise of the yield stress per plastic shear displacement [Pa/m]; negative if the layer softens, to about a tenth.
 
     Raises
     ------
@@ -152,8 +153,8 @@ def _hardened(body: ThirdBody, limit: Array, shift: Array) -> tuple[Array, Array
         part = np.where(before < limit[:, j], shift[:, j], 0.0)
         if body.hardening > 0.0:  # until the layer is as strong as friction; the rest is slip
             part = np.minimum(part, np.maximum(limit[:, j] - before, 0.0) / body.hardening)
-        before = np.maximum(before + body.hardening * part, _FLOOR * body.yield_stress)
-        tau[:, j], plastic[:, j] = before, part
+        tau[:, j], plastic[:, j] = np.maximum(before + body.hardening * part, _LEAST * body.yield_stress), part
+        before = np.maximum(tau[:, j], _FLOOR * body.yield_stress)
     return tau, plastic
 
 

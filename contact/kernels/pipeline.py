@@ -118,6 +118,7 @@ def set_rolling(strips: Matrix, n: int, case: Case) -> None:
         strips[Strip.BOUND, i] = strips[Strip.P0, i] * bodies
         strips[Strip.TO_X, i], strips[Strip.TO_Y, i], strips[Strip.TO_PHI, i] = 0.0, 0.0, 0.0
         strips[Strip.TO_EXPONENT, i], strips[Strip.TILT, i] = 0.0, 0.0
+        strips[Strip.BY_FALL_X, i], strips[Strip.BY_FALL_Y, i] = 0.0, 0.0
         if factor != 1.0:
             strips[Strip.BOUND, i] *= over_profile(factor, case.border, case.border_width, strips[Strip.Y, i])
 

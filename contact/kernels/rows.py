@@ -30,6 +30,8 @@ class Strip(IntEnum):
     CENTRE = 19  # y of the centre of stiffness of the strip's shape [m]
     OFFSET = 20  # centre of a skewed strip minus the line of least gap [m]; 0 for other normal methods
     LN_ASPECT = 21  # ln(a/b) from the normal method
+    BY_FALL_X = 22  # what falling friction does to a stick zone, as a change of VX and VY (`tangential.falling`)
+    BY_FALL_Y = 23
 
 
 class Field(IntEnum):

@@ -31,7 +31,7 @@ from contact.material import STEEL, Material
 Array = NDArray[np.float64]
 
 ROWS = COLUMNS = 60
-SAMPLES = 41  # of a separation
+SAMPLES = 81  # of a separation; 41 miss the peaks of crossing noses
 _MIRROR = np.diag([1.0, -1.0, 1.0])
 REACHES = 1e-2, 0.3  # [m] least and largest reach from the axle
 _MOST_STEPS, _LOAD_TOLERANCE = 40, 1e-5

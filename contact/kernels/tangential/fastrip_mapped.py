@@ -27,7 +27,8 @@ from contact.core import chosen_by, entry, kernel
 from contact.kernels.arrays import Case, Result, Workspace
 from contact.kernels.rows import Element, Field, Strip
 from contact.kernels.tangential.effective import set_effective
-from contact.kernels.tangential.lanes import FAR, LANES, N_LANE_ROWS, Now, Row, Varying, decay_and_lag, turned
+from contact.kernels.tangential.falling import Fallen, let_fall, set_loss, sum_up
+from contact.kernels.tangential.lanes import FAR, LANES, N_LANE_ROWS, Now, decay_and_lag, turned
 from contact.kernels.tangential.mapped_lanes import Lane, set_block
 from contact.kernels.tangential.mapping import mapped, set_aspects, set_centres, slid_at
 from contact.kernels.tangential.march import (
@@ -44,7 +45,7 @@ from contact.kernels.tangential.march import (
 )
 from contact.kernels.tangential.stick_zone import add_zone, begin_zone, end_zone
 from contact.kernels.tangential.ties import tie_strips
-from contact.kernels.tangential.varying import begin_varying, soften, varies
+from contact.kernels.tangential.varying import begin_varying, varies
 
 _MOST = 2.0  # factor by which slip velocities may be scaled
 _ROUND_OFF = 1e-12  # a slip zone shorter than this, over half the length of its strip, is none
@@ -52,12 +53,6 @@ _ROUND_OFF = 1e-12  # a slip zone shorter than this, over half the length of its
 
 #: Numbers of a patch that `set_shapes` returns.
 OfPatch = tuple[float, float, float, float]
-
-
-class _Shown(Row):
-    """Column of `trace` in which `_apply_friction` puts the share of the traction that friction still bears."""
-
-    SHARE = Now.STICK
 
 
 class Uneven(NamedTuple):
@@ -190,46 +185,6 @@ for _stub, _kernel in (
 
 
 @kernel
-def _apply_friction(case, factor, elements, lanes, trace):
-    """Fill `trace` with the share of the traction that friction varying along the strips still bears. Repeat the sums.
-
-    `factor` scales the slip.
-    """
-    for l in range(LANES):
-        lanes[Lane.SUM_X + l], lanes[Lane.SUM_Y + l], lanes[Lane.SUM_M + l] = 0.0, 0.0, 0.0
-        lanes[Lane.POWER + l], lanes[Lane.STICK + l] = 0.0, 0.0
-    for k in range(elements.shape[1]):
-        sine = elements[Element.SINE, k]
-        weight = sine * elements[Element.DX, k]
-        for l in range(LANES):
-            slip = trace[k, Now.SLIP + l] * lanes[Lane.UNIT + l] * factor
-            lanes[Varying.SLIP + l], lanes[Varying.FLUX + l] = slip, lanes[Varying.HEATING + l] * sine * slip
-            lanes[Now.STICK + l] = trace[k, Now.STICK + l]
-        soften(case, k, elements, lanes, trace)
-        for l in range(LANES):
-            qx, qy, slip, fall = (
-                trace[k, Now.X + l],
-                trace[k, Now.Y + l],
-                trace[k, Now.SLIP + l],
-                lanes[Varying.FALL + l],
-            )
-            used, share = math.sqrt(qx * qx + qy * qy), 1.0
-            if fall < 1.0 and used > fall:
-                share = fall / used
-                trace[k, Now.SLIDES + l], trace[k, Now.STICK + l] = 1.0, 0.0
-            counts = weight * share
-            if elements[Element.S, k] < lanes[Lane.FROM + l] and elements[Element.S, k] > lanes[Lane.NEXT + l]:
-                counts = 0.0
-            lanes[Lane.SUM_X + l] += counts * qx
-            lanes[Lane.SUM_Y + l] += counts * qy
-            lanes[Lane.SUM_M + l] += counts * elements[Element.S, k] * qy
-            lanes[Lane.POWER + l] += weight * slip * share
-            lanes[Lane.STICK + l] += elements[Element.STEP, k] * trace[k, Now.STICK + l]
-            trace[k, _Shown.SHARE + l] = share
-    add_zone(elements, lanes)
-
-
-@kernel
 def _write_fields(block, last, elements, falling, lanes, trace, fields):
     """Fill traction, slip and stick flag of a block's strips.
 
@@ -239,7 +194,7 @@ def _write_fields(block, last, elements, falling, lanes, trace, fields):
         for l in range(min(LANES, last - block)):
             i, bound = block + l, lanes[Lane.BOUND + l]
             qx, qy, slip = trace[k, Now.X + l], trace[k, Now.Y + l], trace[k, Now.SLIP + l] * lanes[Lane.UNIT + l]
-            size = bound * elements[Element.SINE, k] * (trace[k, _Shown.SHARE + l] if falling else 1.0)
+            size = bound * elements[Element.SINE, k] * (trace[k, Fallen.SHARE + l] if falling else 1.0)
             fields[Field.QX, i, k], fields[Field.QY, i, k] = size * qx, size * qy
             fields[Field.SX, i, k], fields[Field.SY, i, k] = -slip * qx, -slip * qy
             fields[Field.STICK, i, k] = 1.0 - trace[k, Now.SLIDES + l] if bound > 0.0 else 0.0
@@ -274,12 +229,23 @@ def slip_factor(power, work):
     return min(max(work / power, 1.0 / _MOST), _MOST) if power > 0.0 else 1.0
 
 
+@kernel
+def _march_under(block, last, case, factor, of_patch, own):
+    """March along a block of strips under friction that varies along them."""
+    lanes, trace, elements = own.space.lanes, own.space.trace, own.rule.elements
+    set_block(own.strips, block, last, case, own.tables.kalker, of_patch, lanes)
+    march(Uneven(1), elements, lanes, trace)
+    begin_varying(own.strips, block, last, case, lanes[Lane.BOUND : Lane.BOUND + LANES], lanes)
+    let_fall(case, factor, elements, lanes, trace)
+
+
 @entry
 def roll_patch(first: int, last: int, case: Case, of_patch: OfPatch, own: Workspace, result: Result) -> None:
     """Add forces, power and slip area of the strips of a patch to `result`. Fill their fields if there is room.
 
     `of_patch` is that of `set_shapes`. In steady rolling the slip dissipates the work of the forces. The march's slip follows
-    the given creepages, its forces the effective ones, so the slip velocities of the patch are scaled to that work.
+    the given creepages, its forces the effective ones, so the slip velocities of the patch are scaled to that work. Friction
+    that varies along the strips takes three marches: for this factor, for its effect on the stick zones, and with that.
     """
     strips, fields, elements = own.strips, own.fields, own.rule.elements
     lanes, trace = own.space.lanes, own.space.trace
@@ -297,14 +263,17 @@ def roll_patch(first: int, last: int, case: Case, of_patch: OfPatch, own: Worksp
                 power, work = power + more_power, work + more_work
         factor = slip_factor(power, work)
         power, work = 0.0, 0.0
+        for block in range(first, last, LANES):
+            _march_under(block, last, case, factor, of_patch, own)
+            set_loss(strips, block, last, case, lanes)
     for block in range(first, last, LANES):
-        set_block(strips, block, last, case, own.tables.kalker, of_patch, lanes)
-        march(Uneven(1 if shown else 0), elements, lanes, trace)
-        if not falling:
-            add_zone(elements, lanes)
+        if falling:
+            _march_under(block, last, case, factor, of_patch, own)
+            sum_up(elements, lanes, trace)
         else:
-            begin_varying(strips, block, last, case, lanes[Lane.BOUND : Lane.BOUND + LANES], lanes)
-            _apply_friction(case, factor, elements, lanes, trace)
+            set_block(strips, block, last, case, own.tables.kalker, of_patch, lanes)
+            march(Uneven(1 if shown else 0), elements, lanes, trace)
+            add_zone(elements, lanes)
         for l in range(min(LANES, last - block)):
             i = block + l
             a, dy, bound = strips[Strip.A, i], strips[Strip.DY, i], lanes[Lane.BOUND + l]

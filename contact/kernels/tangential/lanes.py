@@ -48,19 +48,24 @@ class Trace(Row):
 
 
 #: Number of rows of `lanes`. The largest user needs 50 and those for friction that varies.
-N_LANE_ROWS = 56
+N_LANE_ROWS = 61
 TRACE_WIDTH = after(Trace)
 
 
 class Varying(Row):
     """The last rows of `lanes`: friction that varies along the strips (`varying`)."""
 
-    SLIP = (N_LANE_ROWS - 6) * LANES
+    SLIP = (N_LANE_ROWS - 11) * LANES
     FLUX = auto()
     HEATING = auto()
     SLOWED = auto()
     WARM = auto()
     FALL = auto()
+    UNIT = auto()  # of slip over V
+    LACK_X = auto()  # sums over the slip zone behind a stick zone (`falling`)
+    LACK_Y = auto()
+    SHED_X = auto()
+    SHED_Y = auto()
 
 
 #: Upper limit of the normalised distance over which a direction turns in one step. At it, the turn is complete.

@@ -83,7 +83,8 @@ def set_block(strips, block, last, case, table, of_patch, lanes):
         lanes[_Input.HALF + l], lanes[_Input.AT + l] = a, strips[Strip.Y, i]
         lanes[_Input.XC + l] = strips[Strip.XC, i] - strips[Strip.OFFSET, i]
         to_x, to_y, to_phi = strips[Strip.TO_X, i], strips[Strip.TO_Y, i], strips[Strip.TO_PHI, i]
-        lanes[_Input.VX + l], lanes[_Input.VY + l] = strips[Strip.VX, i] + to_x, strips[Strip.VY, i] + to_y
+        lanes[_Input.VX + l] = strips[Strip.VX, i] + strips[Strip.BY_FALL_X, i] + to_x
+        lanes[_Input.VY + l] = strips[Strip.VY, i] + strips[Strip.BY_FALL_Y, i] + to_y
         lanes[_Input.PHI + l] = strips[Strip.PHI, i] + to_phi
         lanes[Lane.TO_X + l], lanes[Lane.TO_Y + l], lanes[Lane.TO_SPIN + l] = to_x, to_y, to_phi
         c11, c22, c23, _ = kalker.coefficients(table, log_aspect)
