@@ -13,7 +13,7 @@
 #define WR_FORCE_X 1
 #define WR_FORCE_Y 2
 #define WR_BIN_ROWS 10
-#define WR_STRIP_ROWS 22
+#define WR_STRIP_ROWS 24
 #define WR_MOTION_NUMBERS 30
 #define WR_MOTION_RADIUS 16
 #define WR_MOTION_TAPE 17

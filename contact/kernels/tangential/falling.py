@@ -111,7 +111,8 @@ def set_loss(strips, block, last, case, lanes):
     for l in range(min(LANES, last - block)):
         unit, at_edge = -2.0 * lanes[Lane.UNIT + l], _lack_at_edge(case, lanes, l)
         x, y = lanes[Varying.LACK_X + l], lanes[Varying.LACK_Y + l]
-        share = 1.0 / math.pi - at_edge / math.sqrt(x * x + y * y) if at_edge > 0.0 else 1.0 / math.pi
+        lack = math.sqrt(x * x + y * y)
+        share = 1.0 / math.pi - (at_edge / lack if lack > 0.0 else 0.0)
         strips[Strip.BY_FALL_X, block + l] = unit * share * lanes[Lane.R + l] * x
         strips[Strip.BY_FALL_Y, block + l] = unit * share * y
 
