@@ -16,7 +16,6 @@ from llvmlite.ir.instructions import ExtractValue
 from numba import types
 from numba.core import cgutils
 from numba.core.typing.templates import AttributeTemplate
-from numba.core.typing.typeof import typeof_impl
 from numba.extending import (
     infer_getattr,
     lower_builtin,
@@ -24,6 +23,7 @@ from numba.extending import (
     models,
     register_model,
     type_callable,
+    typeof_impl,
 )
 
 _WORD = ir.IntType(64)
@@ -35,7 +35,7 @@ class GroupClass(type):
 
 @typeof_impl.register(GroupClass)
 def _typeof_class(value: GroupClass, context: Any) -> None:
-    """Leave a group's class to what `register` has said of it."""
+    """Leave a group's class to what `passed_by_address` has said of it."""
 
 
 class Group(types.Type):

@@ -294,7 +294,9 @@ class Simulation:
             If a contact is on surfaces, or if a wheel has left its rail.
         """
         if isinstance(self._stepper, UnevenWheels):
-            raise ContactError("a contact on surfaces changes along the way and has no derivatives of a steady motion")
+            raise ContactError(
+                "a contact on surfaces changes along the way and has no derivatives of a steady motion: give an amplitude"
+            )
         motion.prepare_contacts(
             self.model, self.state, self.benches.motions, self.scratch, float(speed_at(self.model.track, self.distance))
         )
