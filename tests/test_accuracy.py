@@ -85,8 +85,8 @@ def test_kpec_is_contacts_kpec_patch_by_patch():
 
 
 @pytest.mark.parametrize(("normal", "force", "moment"), [
-    ("analyn", (0.0140, 0.0556, 0.1375), 0.0128),  # bar .025 / .08
-    ("strip_halfspace", (0.0057, 0.0149, 0.0201), 0.0040),  # bar .012 / .03; .008
+    ("analyn", (0.0150, 0.0684, 0.1302), 0.0137),  # bar .025 / .08
+    ("strip_halfspace", (0.0046, 0.0142, 0.0185), 0.0029),  # bar .012 / .03; .008
 ])  # fmt: skip
 def test_creep_forces_on_real_patches(normal, force, moment):
     errors = accuracy.errors_on_patches(normal, "fastrip_mapped")
@@ -97,7 +97,7 @@ def test_creep_forces_on_real_patches(normal, force, moment):
 def test_slopes_at_vanishing_creepage_on_real_patches():
     """Fx/ξ, Fy/η, Fy/φ, Mz/φ: bar 5, 5, 8, 12 %; aim 2, 2, 4, 6 %."""
     mean = np.abs(accuracy.errors_of_slopes("strip_halfspace", "fastrip_mapped")).mean(axis=0)
-    assert (mean <= SLACK * np.array([0.012, 0.019, 0.015, 0.021])).all(), mean
+    assert (mean <= SLACK * np.array([0.008, 0.0145, 0.008, 0.011])).all(), mean
 
 
 def test_reference_is_the_one_described():

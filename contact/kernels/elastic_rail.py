@@ -11,15 +11,22 @@ from contact.kernels.enumerations import Height, Status
 from contact.kernels.pair import solve_pair
 from contact.kernels.root import advance, begin
 
-#: Reach of the search for a deflection beyond where it starts [m], the shortest bracket [m], the largest error of the balance
-#: over the vertical force, and most deflections. The force of a warm pair repeats to about this error.
-_REACH, _SHORTEST, _TOLERANCE, _MOST = 0.03, 1e-12, 2e-5, 60
+#: Reach of the search for a deflection beyond where it starts [m], the shortest bracket [m], the error of the balance over the
+#: vertical force at which it ends, and most deflections. The force of a warm pair repeats to about this error, seldom to a
+#: few times it. So a search that has ended otherwise is in balance within `_NOISE`.
+_REACH, _SHORTEST, _TOLERANCE, _NOISE, _MOST = 0.03, 1e-12, 2e-5, 1e-4, 60
 
 
 @kernel
 def _left(residual, total):
     """Return the residual [N], or 0.0 if it is within the tolerance."""
     return 0.0 if abs(residual) <= _TOLERANCE * max(abs(total.Q), 1.0) else residual
+
+
+@kernel
+def _balanced(root, total):
+    """Return 1 if what the search has left is no more than the noise of the force, else 0: the force jumps."""
+    return 1 if abs(root.value) <= _NOISE * max(abs(total.Q), 1.0) else 0
 
 
 @kernel
@@ -52,7 +59,7 @@ def _solve_settled(mode, amount, given, bench):
         code = _solve_moved(mode, amount, given, bench)
         value = _left(rail.kz * rail.dz + total.Fz - rail.preload_z, total)
         if code < 0 or not advance(root, value, _SHORTEST, _MOST):
-            rail.balanced = 1 if root.value == 0.0 else 0
+            rail.balanced = _balanced(root, total)
             return code
 
 
@@ -70,8 +77,7 @@ def _settle(mode, amount, given, bench):
         code = _solve_settled(mode, amount, given, bench)
         value = _left(rail.ky * rail.dy + total.Fy - rail.preload_y, total)
         if code < 0 or not advance(root, value, _SHORTEST, _MOST):
-            if root.value != 0.0:
-                rail.balanced = 0
+            rail.balanced = min(rail.balanced, _balanced(root, total))
             return code
 
 

@@ -31,16 +31,6 @@ def damp_turns(n, n_panels, panels, vectors):
 
 
 @kernel
-def halve_turns(total, vectors):
-    """Halve the steps of skewed strips that reverse: without mixing, lengths and approach can swing for ever."""
-    for i in range(total):
-        if vectors[Vector.STEP, i] * vectors[Vector.R, i] < 0.0:
-            vectors[Vector.R, i] *= 0.5
-        if vectors[Vector.OFFSET_STEP, i] * vectors[Vector.OFFSET_R, i] < 0.0:
-            vectors[Vector.OFFSET_R, i] *= 0.5
-
-
-@kernel
 def note_sides(n, n_panels, panels, vectors, afresh):
     """Note the place of every end as a side of its bracket, by the sign of its move Vector.R. `afresh` empties it first."""
     for p in range(n_panels):

@@ -16,7 +16,7 @@ import math
 from typing import Any, NamedTuple
 
 from contact.core import kernel
-from contact.kernels.normal.brackets import damp_turns, halve_turns, keep_between, note_sides
+from contact.kernels.normal.brackets import damp_turns, keep_between, note_sides
 from contact.kernels.normal.descent import descend, descend_offsets, has_one_run
 from contact.kernels.normal.mixing import advance, mix
 from contact.kernels.normal.panels import (
@@ -47,7 +47,7 @@ ACCEPTABLE = 1e-3
 FREEZE = 16
 #: Iteration from which on the residuals are the steps, without mixing, which may go round in circles on rough gaps.
 PLAIN = 22
-#: The same of strips whose offsets count in full, which need longer then.
+#: The same of strips whose offsets count in full. Skewed strips are mixed then too, as long as their residuals fall.
 PLAIN_SKEWED = 18
 #: Iteration from which on the ends keep between the places from which they moved outwards and inwards.
 BRACKET = 12
@@ -175,15 +175,17 @@ def _fill_step(problem, state):
 
     s = -J⁻¹ r with the Jacobian J of the ellipse with a panel's a/b, from iteration 22 (18) on and with idle strips between
     loaded ones s = r. Both fixed-point steps are mixed with the last ones by Anderson's method. The mixing begins anew where
-    the unknowns or the kind of step change, and where the residual has doubled.
+    the unknowns or the kind of step change, and where the residual has doubled; from iteration 22 (18) on where it rises,
+    and without skew always.
     """
     own, panels, skewed = problem.own, problem.panels, problem.skew > 0.0
     rule, vectors, n, age = own.rule, own.space.vectors, own.rule.across.nodes.size, state.number - state.begun
     plain = PLAIN_SKEWED if problem.skew >= 1.0 else PLAIN
     frozen, before = age >= FREEZE, state.descending
     state.descending = 1 if _can_descend(problem, state) else 0
-    doubled = state.error > 2.0 * state.last_error * state.load
-    if state.anew != 0 or doubled or state.descending != before or age >= plain:
+    most = 2.0 if age < plain else 1.0
+    grown = state.error > most * state.last_error * state.load
+    if state.anew != 0 or grown or state.descending != before or (age >= plain and not skewed):
         state.mixed = 0
     if state.descending != 0:
         if state.mixed > 0:
@@ -193,8 +195,6 @@ def _fill_step(problem, state):
             descend(p * n, n, width, rule.descent, vectors, frozen)
             if skewed:
                 descend_offsets(p * n, n, width, rule.descent, vectors)
-    elif age > plain and skewed and state.cut == 0:
-        halve_turns(n * state.n_panels, vectors)
     state.left = 0.0
     if state.cut == 0:
         state.left = mix(n, state.n_panels, panels, vectors, state.load, state.mixed, skewed, own.space.lu)

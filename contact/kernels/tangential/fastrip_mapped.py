@@ -12,8 +12,8 @@ any pressure along the strip. Eight constants let m, the spin and the turning of
 aspect ratio. They were fitted to one half of the ellipses computed with CONTACT (mapped_strip.md measures every
 choice).
 
-On a patch that is not an ellipse the logarithm of the aspect ratio of a strip is .6 of the local one, from the
-curvatures, and .4 of that of the equivalent ellipse. Strips roll with effective creepages (`effective`), which give the
+On a patch that is not an ellipse the aspect ratio of a strip has a share of the local one, from the curvatures, and one
+of that of the equivalent ellipse (`mapping.set_aspects`). Strips roll with effective creepages (`effective`), which give the
 half space's forces on ellipses. On set A the mean error of the force is .0025 of mu N, without them .0077. On real
 patches it is .0062, without them .0114. A patch with a neck or a shoulder has several shapes, each with an equivalent
 ellipse, a centre and effective creepages of its own (`ties`); with them it is .0057, and the largest error on flange

@@ -8,8 +8,9 @@ from contact.kernels.rows import Strip
 from contact.kernels.tangential.skew import turn_of
 from contact.kernels.tangential.ties import end_of_shape, share_shape
 
-#: Share of a strip's own ln(a/b), from the curvatures, against that of the equivalent ellipse (theory.md 4.4).
-OWN_ASPECT = 0.6
+#: ln(a/b) of a strip has `_LOCAL` of the mean of its shape's own ones, from the curvatures, and the rest from the equivalent
+#: ellipse; `_DEVIATION` of how far its own is from that mean; and `_TURN` of what `turn_of` gives (mapped_strip.md Eq. aspect).
+_LOCAL, _DEVIATION, _TURN = 0.3, 0.65, 1.2
 
 
 @kernel
@@ -83,8 +84,25 @@ def slid_at(s, direction, r, pole, rigid, from_edge):
 
 
 @kernel
+def _aspects_of_shape(strips, first, last, i):
+    """Return the mean of the strips' own ln(a/b) in the shape of strip i, by load, and ln(a/b) of its equivalent ellipse."""
+    share_shape(strips, first, last, i)
+    longest, area, load, moment = 0.0, 0.0, 0.0, 0.0
+    for j in range(first, last):
+        half = strips[Strip.SHARE, j] * strips[Strip.A, j]
+        part = half * strips[Strip.DY, j]
+        longest = max(longest, half)
+        area += 2.0 * part
+        load += part * strips[Strip.P0, j]
+        moment += part * strips[Strip.P0, j] * strips[Strip.LN_ASPECT, j]
+    if not load > 0.0:
+        return 0.0, 0.0
+    return moment / load, math.log(math.pi * longest * longest / area)
+
+
+@kernel
 def set_aspects(strips, first, last, table):
-    """Blend the aspect ratios of a patch in place, and set the stiffness of its strips (mapped_strip.md 3, step 0).
+    """Set ln(a/b) of the strips of a patch in place, and their stiffness (mapped_strip.md 3, step 0).
 
     Return the distance of the centre of spin from that of longitudinal stiffness [m], the C33 factor of the patch, and its
     turn (`turn_of`). The weights are C11·a²·dy and C11·a·dy. On an ellipse both centres are its own.
@@ -93,17 +111,12 @@ def set_aspects(strips, first, last, table):
     stiffness, moment, stiffness2, moment2, spin = 0.0, 0.0, 0.0, 0.0, 0.0
     i = first
     while i < last:
-        share_shape(strips, first, last, i)
-        longest, area = 0.0, 0.0  # of the equivalent ellipse of the shape
-        for j in range(first, last):
-            a, share = strips[Strip.A, j], strips[Strip.SHARE, j]
-            longest = max(longest, share * a)
-            area += 2.0 * share * a * strips[Strip.DY, j]
-        log_equivalent = turn + (math.log(math.pi * longest * longest / area) if area > 0.0 else 0.0)
+        mean, equivalent = _aspects_of_shape(strips, first, last, i)
+        of_shape = _LOCAL * mean + (1.0 - _LOCAL) * (equivalent + _TURN * turn)
         end = end_of_shape(strips, last, i)
         for j in range(i, end):
             a, y = strips[Strip.A, j], strips[Strip.Y, j]
-            log_aspect = OWN_ASPECT * strips[Strip.ASPECT, j] + (1.0 - OWN_ASPECT) * log_equivalent
+            log_aspect = of_shape + _DEVIATION * (strips[Strip.LN_ASPECT, j] - mean)
             c11, _, _, c33 = kalker.coefficients(table, log_aspect)
             weight = c11 * a * strips[Strip.DY, j]
             strips[Strip.ASPECT, j], strips[Strip.STIFFNESS, j] = log_aspect, weight
