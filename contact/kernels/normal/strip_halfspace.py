@@ -29,7 +29,7 @@ from contact.kernels.records import MAX_PATCHES
 from contact.kernels.rows import Sample, Strip, Vector
 
 #: Most iterations, if the case does not say another number. They cap the time.
-MAX_ITERATIONS = 40
+MAX_ITERATIONS = 60
 #: An iterate that did not converge is returned if it changes by less than this; otherwise ANALYN's solution is.
 USABLE = 0.02
 #: Pressure of the last strip at an end over those of the next two, from which on it is a spur: the end has found no rest.
