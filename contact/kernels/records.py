@@ -206,6 +206,8 @@ PATCH = _record(
     share           weight of the patch, normally 1; below 1 in the transition to separate planes
     pitch           inclination of the frame's normal along the track, forward positive [rad]
     fit_error       of the parabolas along x of a surface, root mean square over the approach [-]
+    back            edges of the interpenetration along x [m]; only for surfaces
+    front           [m]
     """,
 )
 
