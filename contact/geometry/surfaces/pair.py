@@ -263,29 +263,29 @@ class SurfacePair(Posed):
         F^(2/3) is nearly linear in the penetration (Hertz). Where a surface ends, the force may jump with z; then the result
         is the nearest of the heights that were tried.
         """
-        self._search(Height.PENETRATION, 0.0)
-        motion, touch, target = self.space.motion[0], self.z, load ** (2.0 / 3.0)
+        target = load ** (2.0 / 3.0)
         tried: list[tuple[float, float]] = []
 
         def residual(depth: float) -> float:
-            motion.z = touch + depth
-            force = self.carried()
-            tried.append((abs(force - load), touch + depth))
+            force = self.carried(Height.PENETRATION, depth)
+            tried.append((abs(force - load), self.z))
             return 0.0 if tried[-1][0] <= _LOAD_TOLERANCE * load else force ** (2.0 / 3.0) - target
 
-        if load > 0.0:
+        if load <= 0.0:
+            self._search(Height.PENETRATION, 0.0)
+        else:
             p = 1e-4 * (load / 1e5) ** (2.0 / 3.0)
             if rising_root(residual, p, target / p, (0.0, DEEPEST), shortest=_SHORTEST, most=_MOST).beyond:
                 raise ContactError(
                     f"load = {load:g}: no z was found at which the {self.side} wheel carries it on this rail"
                 )
-            motion.z = min(tried)[1]
+            self.space.motion[0].z = min(tried)[1]
         return self.z
 
-    def carried(self) -> float:
-        """Return the vertical force of the pressures of the half space at the present height [N]."""
+    def carried(self, mode: int = Height.GIVEN, amount: float = 0.0) -> float:
+        """Return the vertical force of the pressures of the half space [N]. Parameters as for `found`."""
         total = 0.0
-        for k in range(self._search(Height.GIVEN, 0.0)):
+        for k in range(self._search(mode, amount)):
             made = self._elements(k)
             if made is not None:
                 gap = made.gap
