@@ -37,8 +37,8 @@ SAMPLES = 81  # of a separation; 41 miss the peaks of crossing noses
 REACHES = 1e-2, 0.3  # [m] least and largest reach from the axle
 #: Search under a load: most forces, their tolerance over the load, and [m] of the height below which the force jumps.
 _MOST, _LOAD_TOLERANCE, _SHORTEST = 40, 1e-5, 1e-12
-#: The overlap of a patch is measured on this many points along each side, over that of the search and this share around it.
-_POINTS, _AROUND = 61, 0.1
+#: The overlap of a patch is measured twice on this many points along each side, first with this share of it around.
+_POINTS, _AROUND = 31, 0.4
 _ABSENT = 1e-3  # [m] by which elements without a surface lie above the highest other one
 
 
@@ -303,19 +303,19 @@ class SurfacePair(Posed):
         """Return patch `k` of the last search on elements that cover its overlap; None without overlap."""
         p = self.patches[k]
         frame = Frame.of(p)
-        x, y = (
-            np.linspace(low - _AROUND * (high - low), high + _AROUND * (high - low), _POINTS)
-            for low, high in ((p.back, p.front), (p.low, p.high))
-        )
-        inside = self.distance(frame, x, y) < 0.0
-        if not inside.any():
-            return None
-        columns, rows = (np.flatnonzero(inside.any(axis=axis)) for axis in (0, 1))
-        dx, dy = 0.5 * (x[1] - x[0]), 0.5 * (y[1] - y[0])
-        box = x[columns[0]] - dx, x[columns[-1]] + dx, y[rows[0]] - dy, y[rows[-1]] + dy
+        around = _AROUND * (p.front - p.back), _AROUND * (p.high - p.low)
+        box = p.back - around[0], p.front + around[0], p.low - around[1], p.high + around[1]
+        for cells in (1.0, 0.5):
+            x, y = np.linspace(*box[:2], _POINTS), np.linspace(*box[2:], _POINTS)
+            inside = self.distance(frame, x, y) < 0.0
+            if not inside.any():
+                return None
+            columns, rows = (np.flatnonzero(inside.any(axis=axis)) for axis in (0, 1))
+            dx, dy = cells * (x[1] - x[0]), cells * (y[1] - y[0])
+            box = x[columns[0]] - dx, x[columns[-1]] + dx, y[rows[0]] - dy, y[rows[-1]] + dy
         division = self.division
         if division.spacing is None:
-            steps = _step(box[0], box[1], division.columns), _step(box[2], box[3], division.rows)
+            steps = _step(*box[:2], division.columns), _step(*box[2:], division.rows)
             division = division._replace(spacing=steps)
         centres = division.centres(box)
         h = self.distance(frame, *centres)
