@@ -6,6 +6,7 @@ It is the reference for `contact.pair.WheelRailPair`, which solves the same surf
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 
 from contact.errors import ContactError, require_number
 from contact.friction import Friction
@@ -16,11 +17,13 @@ from contact.pair.motion import AnyPair
 from contact.pair.solution import PairSolution, Solved, of_patches
 from contact.pair.wheel_rail import WheelRailPair
 from contact.registry import DEFAULT_TANGENTIAL
+from contact.solution import Status
 from contact.solve import solve
 
 #: Iteration for a vertical force with friction: largest number of steps, and tolerances relative to the force. On rough
 #: surfaces the force jumps with z when the grid takes in another row, so after half of the steps the wider one counts.
 _MOST_STEPS, _TOLERANCE, _WIDER = 16, 1e-4, 2e-3
+_MISSED = 1e-3  # relative error of a load above which the status tells of it, as for strips
 
 
 class HalfspacePair(AnyPair):
@@ -76,7 +79,8 @@ class HalfspacePair(AnyPair):
         Raises
         ------
         ContactError
-            For input outside its range, if the wheel does not lie above the rail, or if no z gives the force.
+            For input outside its range, if the wheel does not lie above the rail, or if no z gives the force. Where the
+            force jumps over a `load`, the status is NOT_CONVERGED instead.
         """
         velocity, given = velocity or Velocity(), {"load": load, "penetration": penetration, "vertical": vertical}
         if sum(amount is not None for amount in given.values()) > 1:
@@ -87,10 +91,11 @@ class HalfspacePair(AnyPair):
         if vertical is not None:
             return self._under(vertical, pose, velocity, friction)
         mode, amount = self.pair.prescribed(load, penetration)
-        if mode == Height.LOAD:
-            self.pair.settle(amount)
-            mode = Height.GIVEN
-        return self._solution(self.pair.found(mode, amount), pose, velocity, friction)
+        if mode != Height.LOAD:
+            return self._solution(self.pair.found(mode, amount), pose, velocity, friction)
+        missed = self.pair.settle(amount)
+        found = self._solution(self.pair.found(), pose, velocity, friction)
+        return replace(found, status=Status.NOT_CONVERGED) if missed > _MISSED else found
 
     def _solution(
         self, patches: Sequence[SurfacePatch], pose: Pose, velocity: Velocity, friction: float | Friction

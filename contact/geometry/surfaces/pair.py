@@ -31,14 +31,16 @@ from contact.kernels.records import MAX_PATCHES
 from contact.material import STEEL, Material
 
 Array = NDArray[np.float64]
+Range = tuple[float, float, float, float]
 
 ROWS = COLUMNS = 60
 SAMPLES = 81  # of a separation; 41 miss the peaks of crossing noses
 REACHES = 1e-2, 0.3  # [m] least and largest reach from the axle
 #: Search under a load: most forces, their tolerance over the load, and [m] of the height below which the force jumps.
 _MOST, _LOAD_TOLERANCE, _SHORTEST = 40, 1e-5, 1e-12
-#: The overlap of a patch is measured twice on this many points along each side, first with this share of it around.
-_POINTS, _AROUND = 31, 0.4
+#: The overlap of a patch is measured on this many points along each side, at least twice, at most so many times. Where it
+#: reaches an edge of their range, this becomes longer by a share.
+_POINTS, _TWICE, _PASSES, _LONGER = 41, 2, 6, 0.4
 _ABSENT = 1e-3  # [m] by which elements without a surface lie above the highest other one
 
 
@@ -258,10 +260,10 @@ class SurfacePair(Posed):
         return self.found(mode, amount)
 
     def settle(self, load: float) -> float:
-        """Set the height at which the pressures of the half space carry a vertical load [N], and return z [m].
+        """Set the height at which the pressures of the half space carry a vertical load [N], and return its relative error.
 
-        F^(2/3) is nearly linear in the penetration (Hertz). Where a surface ends, the force may jump with z; then the result
-        is the nearest of the heights that were tried.
+        F^(2/3) is nearly linear in the penetration (Hertz). Where a surface ends or has an edge, the force may jump with z.
+        Then the height is the best of those that were tried.
         """
         target = load ** (2.0 / 3.0)
         tried: list[tuple[float, float]] = []
@@ -273,14 +275,14 @@ class SurfacePair(Posed):
 
         if load <= 0.0:
             self._search(Height.PENETRATION, 0.0)
-        else:
-            p = 1e-4 * (load / 1e5) ** (2.0 / 3.0)
-            if rising_root(residual, p, target / p, (0.0, DEEPEST), shortest=_SHORTEST, most=_MOST).beyond:
-                raise ContactError(
-                    f"load = {load:g}: no z was found at which the {self.side} wheel carries it on this rail"
-                )
-            self.space.motion[0].z = min(tried)[1]
-        return self.z
+            return 0.0
+        p = 1e-4 * (load / 1e5) ** (2.0 / 3.0)
+        if rising_root(residual, p, target / p, (0.0, DEEPEST), shortest=_SHORTEST, most=_MOST).beyond:
+            raise ContactError(
+                f"load = {load:g}: no z was found at which the {self.side} wheel carries it on this rail"
+            )
+        missed, self.space.motion[0].z = min(tried)
+        return missed / load
 
     def carried(self, mode: int = Height.GIVEN, amount: float = 0.0) -> float:
         """Return the vertical force of the pressures of the half space [N]. Parameters as for `found`."""
@@ -303,16 +305,9 @@ class SurfacePair(Posed):
         """Return patch `k` of the last search on elements that cover its overlap; None without overlap."""
         p = self.patches[k]
         frame = Frame.of(p)
-        around = _AROUND * (p.front - p.back), _AROUND * (p.high - p.low)
-        box = p.back - around[0], p.front + around[0], p.low - around[1], p.high + around[1]
-        for cells in (1.0, 0.5):
-            x, y = np.linspace(*box[:2], _POINTS), np.linspace(*box[2:], _POINTS)
-            inside = self.distance(frame, x, y) < 0.0
-            if not inside.any():
-                return None
-            columns, rows = (np.flatnonzero(inside.any(axis=axis)) for axis in (0, 1))
-            dx, dy = cells * (x[1] - x[0]), cells * (y[1] - y[0])
-            box = x[columns[0]] - dx, x[columns[-1]] + dx, y[rows[0]] - dy, y[rows[-1]] + dy
+        box = self._overlap(frame, (p.back, p.front, p.left, p.right))
+        if box is None:
+            return None
         division = self.division
         if division.spacing is None:
             steps = _step(*box[:2], division.columns), _step(*box[2:], division.rows)
@@ -324,6 +319,20 @@ class SurfacePair(Posed):
             return None
         approach = -float(h[present].min())
         return _Elements(Gap(*centres, np.where(present, h, h[present].max() + _ABSENT) + approach), approach, frame)
+
+    def _overlap(self, frame: Frame, box: Range) -> Range | None:
+        """Return the range of a frame that the overlap fills, about in the range `box`; None without overlap."""
+        for k in range(_PASSES):
+            x, y = np.linspace(*box[:2], _POINTS), np.linspace(*box[2:], _POINTS)
+            inside = self.distance(frame, x, y) < 0.0
+            if not inside.any():
+                return None
+            (back, front), (low, high) = _around(x, inside.max(axis=0)), _around(y, inside.max(axis=1))
+            whole = x[0] <= back and front <= x[-1] and y[0] <= low and high <= y[-1]
+            box = back, front, low, high
+            if whole and k + 1 >= _TWICE:
+                break
+        return box
 
     def distance(self, frame: Frame, x: Array, y: Array) -> Array:
         """Return rail minus wheel along the normal of a frame of the right side, shape (ny, nx) [m].
@@ -352,6 +361,16 @@ class SurfacePair(Posed):
             rolling_radius=float(p.radius),
             share=float(p.share),
         )
+
+
+def _around(at: Array, inside: NDArray[np.bool_]) -> tuple[float, float]:
+    """Return the range of positions `at` that are inside, with a step around it, or more where it reaches an end."""
+    first, last = np.flatnonzero(inside)[[0, -1]]
+    step, longer = float(at[1] - at[0]), _LONGER * float(at[-1] - at[0])
+    return (
+        float(at[first]) - (step if first > 0 else longer),
+        float(at[last]) + (step if last < at.size - 1 else longer),
+    )
 
 
 def _step(low: float, high: float, n: int) -> float:

@@ -255,6 +255,7 @@ def _measure(cells: Array, box: Array, wanted: float, z: float, lobe: Record) ->
     lobe.cosine, lobe.sine, lobe.slant, lobe.tie = 0.0, 0.0, 0.0, 0.0
     lobe.low, lobe.high, lobe.x_low, lobe.x_high = math.inf, -math.inf, math.inf, -math.inf
     lobe.low_z, lobe.high_z = 0.0, 0.0
+    lobe.step_x, lobe.step_y = box[Box.DX], box[Box.DY]
     area = box[Box.DX] * box[Box.DY]
     for i in range(cells.shape[1]):
         y = box[Box.Y] + i * box[Box.DY]

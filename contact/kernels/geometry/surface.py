@@ -161,7 +161,8 @@ def _describe(z: float, lobe: Record, neighbours: tuple[float, float], k: int, s
     if not least < 0.0:
         return False
     patch.angle, patch.pitch, patch.low, patch.high, patch.load = angle, pitch, low, high, 0.0
-    patch.back, patch.front = back, front
+    patch.back, patch.front = back - lobe.step_x, front + lobe.step_x
+    patch.left, patch.right = low - lobe.step_y, high + lobe.step_y
     patch.approach = -least
     for i in range(space.h.shape[0]):
         for j in range(space.h.shape[1]):
