@@ -276,7 +276,7 @@ class SurfacePair(Posed):
         if load <= 0.0:
             self._search(Height.PENETRATION, 0.0)
             return 0.0
-        p = 1e-4 * (load / 1e5) ** (2.0 / 3.0)
+        p = min(1e-4 * (load / 1e5) ** (2.0 / 3.0), 0.5 * DEEPEST)
         if rising_root(residual, p, target / p, (0.0, DEEPEST), shortest=_SHORTEST, most=_MOST).beyond:
             raise ContactError(
                 f"load = {load:g}: no z was found at which the {self.side} wheel carries it on this rail"
