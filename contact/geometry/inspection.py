@@ -210,11 +210,6 @@ def has_flange(points: Points) -> bool:
     return bool(points[:, 1].max() > np.median(points[:, 1]) + FLANGE)
 
 
-def apparent_kind(points: Points) -> Kind | None:
-    """Return what points in order look like, whichever way they lie; None if they could be either."""
-    return _appearance(points)[0]
-
-
 def _appearance(points: Points) -> tuple[Kind | None, bool]:
     """Return what points in order look like, None if they could be either, and whether their z points down.
 
