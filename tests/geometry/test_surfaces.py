@@ -13,6 +13,7 @@ from contact.geometry.surfaces.frame import Frame
 from contact.geometry.surfaces.spline import approximated, slopes
 from contact.geometry.wheelset import Irregularity, Pair, Pose, Velocity
 from contact.kernels.geometry.section import AWAY
+from examples.crossing.crossing import crossing
 
 R0 = 0.460
 WHEEL, RAIL = profile.s1002(), profile.rail_60e1()
@@ -242,6 +243,10 @@ def test_on_a_ramp_the_wheel_touches_ahead_or_behind_the_axle(rate):
     (patch,) = tilted.contacts(Pose(z=z + 5e-5), station=0.01)
     assert patch.frame.axes[2] == pytest.approx(np.array([rate, 0.0, 1.0]) / stretched, abs=1e-4)
     assert patch.approach == pytest.approx(5e-5 / stretched, rel=2e-3)
+    # the reference point lies on the rail, the wheel's deeper along the normal
+    assert patch.position[2] == pytest.approx(-rate * (0.01 + patch.position[0]), abs=1e-7)
+    deeper = np.array(patch.wheel_position) - patch.position
+    assert deeper == pytest.approx(patch.approach * patch.frame.axes[2], abs=0.05 * patch.approach)
 
 
 def test_a_steep_ramp_is_touched_beyond_the_first_reach():
@@ -256,7 +261,41 @@ def test_a_cylinder_with_a_chord_falls_and_turns_about_its_end(turned):
     half = math.asin(0.025 / R0)
     pair = SurfacePair(WheelSurface.constant(CONE, flat), ARC, **UNDER)
     z = pair.touch(Pose(), rotation=-1.0 + turned * half)
-    assert z == pytest.approx(R0 - R0 * math.cos(half * (1.0 - abs(turned))), abs=1.5e-6)
+    assert z == pytest.approx(R0 - R0 * math.cos(half * (1.0 - abs(turned))), abs=1e-7)
+
+
+@pytest.mark.parametrize("depth", [1e-6, 3e-6, 1e-5, 5e-5])
+@pytest.mark.parametrize("turned", [0.1, 0.37, 0.8])
+def test_the_narrow_overlap_at_the_end_of_a_chord_is_found(depth, turned):
+    """It may lie between the points of the first grids. The rail is flat across, so both bodies are known in closed form.
+
+    Before and behind the end the wheel rises as a circle and as the plane of the flat.
+    """
+    half = math.asin(0.015 / R0)
+    wheel = WheelSurface.constant(CONE, Flat(0.03, shape="chord"))
+    pair = SurfacePair(wheel, ARC, **UNDER)
+    (patch,) = pair.contacts(Pose(), rotation=turned * half, penetration=depth)
+    x = np.linspace(-1.0, 1.0, 200001) * 8.0 * math.sqrt(depth) - R0 * math.sin(half * (1.0 - turned))
+    plane = (R0 * math.cos(half) - x * math.sin(turned * half)) / math.cos(turned * half)
+    rim = np.minimum(np.sqrt(R0**2 - x**2), plane)
+    over = np.maximum(rim - rim.max() + depth, 0.0)
+    volume = float((4.0 / 3.0 * over * np.sqrt(2.0 * 0.3 * over)).sum() * (x[1] - x[0]))  # parabolas across
+    gap = patch.gap
+    found = float(np.maximum(patch.approach - gap.h, 0.0).sum()) * gap.dx * gap.dy
+    middle = float((x * over**2.5).sum() / (over**2.5).sum())  # weights are depth²
+    assert patch.approach == pytest.approx(depth, abs=0.02 * depth + 1e-7)
+    assert found == pytest.approx(volume, rel=0.03, abs=0.25 * volume * 1e-6 / depth)
+    assert patch.position[0] == pytest.approx(middle, abs=0.1 * np.ptp(x[over > 0.0]) + 1e-4)
+
+
+def test_patches_in_transition_have_shares_that_add_up():
+    """Wing and nose of a crossing, 57 mm apart, with the limit of distance moved there."""
+    pair = SurfacePair(WHEEL, crossing(), combine_distance=0.045, rows=20, columns=20, **UNDER)
+    wing, both, nose = pair.contacts(Pose(), station=0.158, penetration=1.5e-4)
+    assert wing.share == nose.share
+    assert 0.0 < wing.share < 1.0
+    assert wing.share + both.share == pytest.approx(1.0, abs=1e-12)
+    assert wing.position[1] > both.position[1] > nose.position[1]
 
 
 def test_a_polygon_touches_where_the_rigid_wheel_is_lowest():
