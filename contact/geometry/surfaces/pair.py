@@ -217,11 +217,11 @@ class SurfacePair(Posed):
         self._search(Height.PENETRATION, 0.0)
         return self.z
 
-    def _search(self, mode: int, amount: float, load: float | None = None) -> int:
+    def _search(self, mode: int, amount: float) -> int:
         """Describe the patches at the pose of the last `place` and return their number."""
         n = find(mode, amount, self.space)
         motion = self.space.motion[0]
-        self.require_found(n, Pose(self._mirror * float(motion.y), float(motion.z)), load)
+        self.require_found(n, Pose(self._mirror * float(motion.y), float(motion.z)), None)
         return int(n)
 
     def contacts(
@@ -265,6 +265,9 @@ class SurfacePair(Posed):
         F^(2/3) is nearly linear in the penetration (Hertz). Where a surface ends or has an edge, the force may jump with z.
         Then the height is the best of those that were tried.
         """
+        if load <= 0.0:
+            self._search(Height.PENETRATION, 0.0)
+            return 0.0
         target = load ** (2.0 / 3.0)
         tried: list[tuple[float, float]] = []
 
@@ -273,9 +276,6 @@ class SurfacePair(Posed):
             tried.append((abs(force - load), self.z))
             return 0.0 if tried[-1][0] <= _LOAD_TOLERANCE * load else force ** (2.0 / 3.0) - target
 
-        if load <= 0.0:
-            self._search(Height.PENETRATION, 0.0)
-            return 0.0
         p = min(1e-4 * (load / 1e5) ** (2.0 / 3.0), 0.5 * DEEPEST)
         if rising_root(residual, p, target / p, (0.0, DEEPEST), shortest=_SHORTEST, most=_MOST).beyond:
             raise ContactError(
