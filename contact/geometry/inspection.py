@@ -10,8 +10,9 @@ import numpy as np
 from numpy.lib.stride_tricks import sliding_window_view
 from numpy.typing import NDArray
 
+from contact.arrays import Array
+
 Kind = Literal["wheel", "rail"]
-Array = NDArray[np.float64]
 Points = NDArray[np.float64]  # shape (n, 2): y, z [m]
 
 UNITS = {"m": 1.0, "mm": 1e-3, "inch": 0.0254}  # of profile files [m]

@@ -8,16 +8,14 @@ from dataclasses import dataclass, field
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
+from contact.arrays import Array
 from contact.creepage import Creepage
 from contact.damage import Damage, evaluate
 from contact.geometry.records import Patch, Pose, contact_angle
 from contact.geometry.surfaces import SurfacePatch
 from contact.notebook import beside, table
 from contact.solution import PairJacobian, Solution, Status
-
-Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True, slots=True)

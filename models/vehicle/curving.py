@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from contact.arrays import Array
 from contact.errors import ContactError
 from contact.friction import Friction
 from contact.geometry.profile import Profile
@@ -17,8 +18,6 @@ from .kernels.frames import carried, lay_frames
 from .kernels.layout import Axis, Book
 from .linear import coordinates
 from .simulation import ContactOptions, Simulation
-
-Array = NDArray[np.float64]
 
 _INSTANT = 1e-6  # step from which the accelerations are taken [s]
 _TRANSITION = 40.0  # at the start of the curve [m]

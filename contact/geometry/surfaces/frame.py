@@ -7,9 +7,8 @@ from dataclasses import dataclass
 from typing import Any, Self
 
 import numpy as np
-from numpy.typing import NDArray
 
-Array = NDArray[np.float64]
+from contact.arrays import Array
 
 _MIRROR = np.diag([1.0, -1.0, 1.0])
 

@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from contact import workspace
+from contact.arrays import Array
 from contact.creepage import Creepage
 from contact.errors import ContactError, require_number
 from contact.geometry.posed import Posed, Side
@@ -30,7 +31,6 @@ from contact.kernels.geometry.settle import DEEPEST
 from contact.kernels.records import MAX_PATCHES
 from contact.material import STEEL, Material
 
-Array = NDArray[np.float64]
 Range = tuple[float, float, float, float]
 
 ROWS = COLUMNS = 60

@@ -11,9 +11,9 @@ import itertools
 import numpy as np
 from numpy.typing import NDArray
 
+from contact.arrays import Array
 from contact.geometry.surfaces.spline import slopes
 
-Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]
 
 

@@ -8,15 +8,14 @@ from os import PathLike
 from typing import Any, Self
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from contact.arrays import Array
 from contact.errors import ContactError, require_number
 from contact.geometry.shape import Profile
 from contact.geometry.surfaces.deviation import Deviation
 from contact.geometry.surfaces.sheet import SplineSheet
 from contact.geometry.surfaces.slices import MOST_SLICES, SPACING, Slice, connect, positions
-
-Array = NDArray[np.float64]
 
 _FULL = 2.0 * math.pi
 _WIDEST = (
