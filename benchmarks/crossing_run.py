@@ -13,9 +13,9 @@ from typing import NamedTuple
 
 import numpy as np
 from matplotlib.figure import Figure
-from numpy.typing import NDArray
 
 from benchmarks.tables import read_options
+from contact.arrays import Array
 from contact.geometry import profile
 from contact.plot import time_histories
 from examples.crossing import turnout
@@ -25,8 +25,6 @@ from models.vehicle.declared import read
 from models.vehicle.kernels.layout import Book
 from models.vehicle.sections import RailSection
 from models.vehicle.simulation import ContactOptions, Simulation
-
-Array = NDArray[np.float64]
 
 #: Distance of the first wheelset before the slices begin, and after they end [m].
 _BEFORE, _AFTER = 0.5, 1.5

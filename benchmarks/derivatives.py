@@ -18,15 +18,13 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 import contact
 from benchmarks.tables import read_options
+from contact.arrays import Array
 from contact.geometry import profile
 from contact.geometry.wheelset import Pair, Pose, Velocity, contacts
 from contact.pair import WheelRailPair
-
-Array = NDArray[np.float64]
 
 SPEED, RADIUS, FRICTION = 20.0, 0.460, 0.3
 #: Disagreement of two central differences, over the largest slope of the column, above which no derivative is known.

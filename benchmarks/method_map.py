@@ -16,15 +16,14 @@ from pathlib import Path
 
 import matplotlib.pyplot as plt
 import numpy as np
-from numpy.typing import NDArray
 
 import contact
 from benchmarks.tables import table
+from contact.arrays import Array
 from contact.geometry import profile
 from contact.geometry.wheelset import Pair, Pose
 
 FRICTION, FINER, FINEST, REPEATS = 0.3, 120, 240, 3
-Array = NDArray[np.float64]
 Contact = tuple[contact.Separation, contact.Creepage, float]
 
 #: Title, normal and tangential method, strips (elements along y), elements along x.

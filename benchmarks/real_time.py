@@ -19,6 +19,7 @@ from numpy.typing import NDArray
 
 import contact
 from benchmarks.tables import read_options, table
+from contact.arrays import Array
 from contact.geometry import profile
 from models.life.spectra import Irregularities
 from models.life.track import Curve, Track
@@ -26,7 +27,6 @@ from models.vehicle.course import lay
 from models.vehicle.declared import read
 from models.vehicle.simulation import ContactOptions, Simulation
 
-Array = NDArray[np.float64]
 SOURCE = Path(__file__).parents[1] / "examples" / "c" / "real_time.c"
 SPEED, STEP, FRICTION = 20.0, 1e-3, 0.3
 PAGE = """# Real time

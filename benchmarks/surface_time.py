@@ -18,6 +18,7 @@ from contact.geometry import profile
 from contact.geometry.surfaces import Flat, SurfacePair, WheelSurface
 from contact.geometry.wheelset import Pair, Pose, Velocity
 from contact.kernels.enumerations import Height
+from contact.kernels.geometry.elements import find
 from contact.kernels.geometry.prepare import move
 from contact.kernels.geometry.settle import settle
 from contact.pair import WheelRailPair
@@ -44,7 +45,7 @@ def measured(pair: Pair | SurfacePair, place: Callable[[int], dict[str, float]],
 
     def search(k: int) -> None:
         move(pair.given(Pose(y=1e-6 * k), ROLLING, **place(k)), pair.space.motion[0])
-        settle(Height.PENETRATION, 8e-5, pair.space)
+        (settle if isinstance(pair, Pair) else find)(Height.PENETRATION, 8e-5, pair.space)
 
     found = [times(search, poses)]
     ways = ({"penetration": 8e-5}, {"load": 8e4}, {"vertical": 8e4})

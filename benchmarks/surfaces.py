@@ -25,8 +25,9 @@ import numpy as np
 from benchmarks.tables import read_options, table
 from contact.geometry.profile import Profile
 from contact.geometry.surfaces import RailSurface, SurfacePair, WheelSurface
-from contact.geometry.surfaces.frame import Frame, PlacedWheel, heights
+from contact.geometry.surfaces.frame import Frame
 from contact.geometry.wheelset import Pose, Velocity
+from contact.kernels.geometry.section import AWAY
 from contact.pair import HalfspacePair, WheelRailPair
 from contact.study.errors import mean_p95_max
 from reference import STEEL
@@ -155,15 +156,13 @@ def gap_errors(folder: Path, rows: list[list[Row]], sweep: str, pair: SurfacePai
             if not same or int(row["ncon"]) != int((fields[f"{name}pn"] > 0).sum()):
                 continue
             pose = Pose(y=1e-3 * float(first["y_ws"]), z=1e-3 * float(first["z_wm"]))
-            scene = pair.scene(
-                pose, 1e-3 * float(where) if crossing else 0.0, 0.0 if crossing else np.radians(float(where))
-            )
+            place = {"station": 1e-3 * float(where)} if crossing else {"rotation": np.radians(float(where))}
+            pair.place(pose, **place)
             shift = 0.75 if sweep.startswith("d09") else 0.0
             origin = 1e-3 * np.array([float(row[k]) for k in ("xcp_tr", "ycp_tr", "zcp_tr")]) + [0.0, shift, 0.0]
-            frame = Frame.about_x(origin, float(row["delta_rad"]))
-            grid = 1e-3 * fields[f"{name}x"], 1e-3 * fields[f"{name}s"]
-            wheel = PlacedWheel(pair.wheel, pair.nominal_radius, pair.tape, pose, scene.wheel.rotation)
-            gap = heights(scene.rail, frame, *grid, deepest=False).z - heights(wheel, frame, *grid, deepest=True).z
+            frame = Frame.turned(origin, float(row["delta_rad"]))
+            gap = pair.distance(frame, 1e-3 * fields[f"{name}x"], 1e-3 * fields[f"{name}s"])
+            gap[gap >= AWAY] = np.nan
             error = 1e6 * (gap - np.nanmin(gap)) - 1e3 * fields[f"{name}h"]
             found.append(float(np.sqrt(np.nanmean(error**2))))
             break

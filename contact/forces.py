@@ -8,9 +8,10 @@ from concurrent.futures import ThreadPoolExecutor
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from contact import workspace
+from contact.arrays import Array
 from contact.case import cases as prepared_cases
 from contact.case import set_surface
 from contact.creepage import LARGEST_CREEPAGE, Creepage
@@ -28,7 +29,6 @@ from contact.separation import Separation
 from contact.solution import Forces, Jacobian
 from contact.solver import N_ELEMENTS, N_STRIPS, require_conformal, require_resolution
 
-Array = NDArray[np.float64]
 _CHUNK = 256
 _PARTS = ("longitudinal", "lateral", "spin")
 

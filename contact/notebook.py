@@ -12,9 +12,9 @@ from importlib import import_module
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
-Array = NDArray[np.float64]
+from contact.arrays import Array
 
 #: Fill of areas. Its medium lightness is visible on white and on black.
 COLOUR = "#3b8bd0"

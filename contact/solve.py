@@ -8,9 +8,7 @@ from collections.abc import Callable
 from dataclasses import replace
 from typing import NamedTuple
 
-import numpy as np
-from numpy.typing import NDArray
-
+from contact.arrays import Array
 from contact.creepage import Creepage, as_creepage
 from contact.errors import ContactError, require_number, require_pair
 from contact.friction import Friction, as_friction
@@ -40,8 +38,6 @@ from contact.solver import (
 )
 from contact.theory.kalker import constant_table
 from contact.trace import show, show_step
-
-Array = NDArray[np.float64]
 
 #: Default number of rows and of columns of the half space's elements.
 _N_OF_HALF_SPACE = 60

@@ -7,8 +7,8 @@ from collections.abc import Callable
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from contact.arrays import Array
 from contact.core import COMPILING, library
 from contact.kernels import memory, quadrature
 from contact.kernels.arrays import Aside, Bench, Ledger, Rule, Search, Sheet, Size, SurfaceSearch, Tables, Workspace
@@ -19,8 +19,6 @@ from contact.kernels.normal.descent import fill_descent
 from contact.kernels.rows import Bin
 from contact.registry import Method
 from contact.theory import force_table, kalker
-
-Array = NDArray[np.float64]
 
 
 def _zeros(n: int) -> Array:

@@ -9,11 +9,9 @@ from __future__ import annotations
 import struct
 
 import numpy as np
-from numpy.typing import NDArray
 
+from contact.arrays import Array
 from contact.errors import ContactError
-
-Array = NDArray[np.float64]
 
 #: Greatest number of points that an FMU reads, unless its component says otherwise (`native.component.Resource`).
 MOST_POINTS = 100_000

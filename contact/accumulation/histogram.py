@@ -8,8 +8,8 @@ from html import escape
 from typing import Literal, get_args
 
 import numpy as np
-from numpy.typing import NDArray
 
+from contact.arrays import Array
 from contact.damage import DamageParameters
 from contact.damage.assessment import assess
 from contact.errors import ContactError, require_number
@@ -22,7 +22,6 @@ from contact.material import Material
 from contact.notebook import Sketch
 from contact.solution import Solution
 
-Array = NDArray[np.float64]
 Per = Literal["metre", "revolution", "pass"]
 
 #: Name → unit and meaning of the quantities that are summed, in the order of `contact.kernels.damage.deposit`. Volume and

@@ -6,7 +6,7 @@ import math
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from contact.errors import ContactError, require_number
 from contact.geometry.profile import Profile
@@ -15,8 +15,6 @@ from contact.kernels.damage import deposit
 from contact.kernels.rows import Strip
 from contact.solution import Solution
 from contact.stress import Endurance, SurfaceLoad, dang_van
-
-Array = NDArray[np.float64]
 
 #: Elements along each side onto which a solution on strips is put.
 _N_SIDE = 32

@@ -3,13 +3,11 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
 from contact.accumulation.histogram import Histogram
+from contact.arrays import Array
 from contact.errors import require_number
 from contact.geometry.profile import Profile
-
-Array = NDArray[np.float64]
 
 
 def worn_profile(histogram: Histogram, times: float = 1.0, *, smoothing: float = 2e-3) -> Profile:

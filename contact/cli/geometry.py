@@ -7,20 +7,18 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 from rich import box
 from rich.console import Console
 from rich.markup import escape
 from rich.table import Table
 
+from contact.arrays import Array
 from contact.cli import arguments
 from contact.cli import options as opt
 from contact.cli.output import deliver, drawing, prepare, reported
 from contact.geometry import conicity as conicity_of
 from contact.geometry import contact_points, equivalent_conicity, nonlinearity, profile, steering
 from contact.geometry.wheelset import TAPE_FROM_FLANGE_BACK
-
-Array = NDArray[np.float64]
 
 _SHOWN = 21  # lines of a printed table of contact points; files contain all lines
 _CURVE = 121  # amplitudes of a drawn curve

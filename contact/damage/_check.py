@@ -6,11 +6,10 @@ import math
 from collections.abc import Callable
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from contact.arrays import Array
 from contact.errors import ContactError, require_number
-
-Array = NDArray[np.float64]
 
 
 def numbers(name: str, values: ArrayLike, minimum: float = -math.inf, *, open_minimum: bool = False) -> Array:

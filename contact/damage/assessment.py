@@ -6,8 +6,8 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Literal, NamedTuple, get_args
 
 import numpy as np
-from numpy.typing import NDArray
 
+from contact.arrays import Array
 from contact.damage.archard import ArchardMap
 from contact.damage.burstow import Burstow
 from contact.damage.pearce_sherratt import PearceSherratt
@@ -22,7 +22,6 @@ from contact.registry import methods
 if TYPE_CHECKING:
     from contact.solution import Solution
 
-Array = NDArray[np.float64]
 WearLaw = Literal["archard", "usfd", "usfd_local", "pearce_sherratt"]
 WEAR_LAWS: tuple[WearLaw, ...] = get_args(WearLaw)
 

@@ -15,15 +15,13 @@ import math
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import NDArray
 
+from contact.arrays import Array
 from contact.errors import ContactError
 from contact.material import Thermal
 
 if TYPE_CHECKING:
     from contact.solution import Solution
-
-Array = NDArray[np.float64]
 
 
 def heating(flux: Array, edges: Array, speed: float, thermal: Thermal) -> Array:

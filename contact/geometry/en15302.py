@@ -12,13 +12,12 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from contact.arrays import Array
 from contact.errors import ContactError, require_number
 from contact.geometry.rigid import ContactPoints, contact_points
 from contact.geometry.shape import Profile
-
-Array = NDArray[np.float64]
 
 STEP = 2e-5  # step of the table of Δr [m]
 BEYOND = 5e-3  # the table extends beyond the largest amplitude by this [m], on both sides

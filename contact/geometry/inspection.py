@@ -10,8 +10,9 @@ import numpy as np
 from numpy.lib.stride_tricks import sliding_window_view
 from numpy.typing import NDArray
 
+from contact.arrays import Array
+
 Kind = Literal["wheel", "rail"]
-Array = NDArray[np.float64]
 Points = NDArray[np.float64]  # shape (n, 2): y, z [m]
 
 UNITS = {"m": 1.0, "mm": 1e-3, "inch": 0.0254}  # of profile files [m]
@@ -208,11 +209,6 @@ def turned(points: Points, kind: Kind) -> float:
 def has_flange(points: Points) -> bool:
     """Return whether the lowest point of a wheel, with z down, is a flange's tip."""
     return bool(points[:, 1].max() > np.median(points[:, 1]) + FLANGE)
-
-
-def apparent_kind(points: Points) -> Kind | None:
-    """Return what points in order look like, whichever way they lie; None if they could be either."""
-    return _appearance(points)[0]
 
 
 def _appearance(points: Points) -> tuple[Kind | None, bool]:

@@ -13,9 +13,9 @@ from dataclasses import dataclass, replace
 from typing import Protocol, Self
 
 import numpy as np
-from numpy.typing import NDArray
 
-Array = NDArray[np.float64]
+from contact.arrays import Array
+
 Points = tuple[Array, Array, Array]  # y, z [mm], angle of the tangent [rad]
 
 SPACING = 0.25e-3  # [m] of arc between two points

@@ -9,13 +9,12 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from contact.arrays import Array
 from contact.errors import ContactError, require_number
 from contact.geometry.shape import Profile
 from contact.geometry.wheelset import Pair, Pose
-
-Array = NDArray[np.float64]
 
 _DEPTH = 1e-9  # penetration [m] at which a patch counts as a point: it is some micrometres wide
 _STEEPEST_ROLL = 0.1  # largest roll of a pose [rad]

@@ -13,15 +13,13 @@ from html import escape
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from contact.arrays import Array
 from contact.errors import ContactError, require_number, warn
 from contact.geometry import inspection
 from contact.geometry.inspection import Kind as Kind
 from contact.geometry.outline import spline_slopes
 from contact.notebook import Sketch, figures
-
-Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True, eq=False)

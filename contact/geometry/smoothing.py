@@ -3,11 +3,9 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
+from contact.arrays import Array
 from contact.errors import ContactError, require_number
-
-Array = NDArray[np.float64]
 
 
 def smoothed(y: Array, z: Array, tolerance: float) -> tuple[Array, Array, Array]:

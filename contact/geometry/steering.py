@@ -14,13 +14,12 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from contact.arrays import Array
 from contact.errors import ContactError, require_number
 from contact.geometry.en15302 import equivalent_conicity
 from contact.geometry.rigid import ContactPoints
-
-Array = NDArray[np.float64]
 
 FLANGE = math.radians(30.0)
 

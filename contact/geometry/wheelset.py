@@ -22,9 +22,10 @@ import math
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from contact import workspace
+from contact.arrays import Array
 from contact.creepage import Creepage
 from contact.errors import ContactError, require_integer, require_number
 from contact.geometry.posed import Posed, Side
@@ -40,7 +41,6 @@ from contact.separation import Separation
 
 __all__ = ["Irregularity", "Pair", "Patch", "Pose", "Velocity", "contacts"]
 
-Array = NDArray[np.float64]
 
 SAMPLES = 81
 

@@ -5,15 +5,14 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from contact.arrays import Array
 from contact.creepage import Creepage
 from contact.kernels.conformal import bend
 from contact.kernels.records import CASE
 from contact.kernels.rows import Strip
 from contact.separation import Separation
-
-Array = NDArray[np.float64]
 
 #: The arc length is summed over this many pieces between two samples of a separation.
 _PIECES = 16

@@ -15,10 +15,9 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from contact.arrays import Array
 from contact.halfspace.influence import Influence
 from contact.material import Material
-
-Array = NDArray[np.float64]
 
 
 class _Angles:

@@ -14,8 +14,8 @@ import math
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
+from contact.arrays import Array
 from contact.creepage import Creepage
 from contact.errors import ContactError
 from contact.halfspace.bent import Bent
@@ -25,8 +25,6 @@ from contact.halfspace.pressed import Pressed
 from contact.halfspace.solution import GridSolution
 from contact.halfspace.tang import OFFSET, prepare, rigid_slip
 from contact.solution import Jacobian
-
-Array = NDArray[np.float64]
 
 #: Relative accuracy of the linear systems, and the most steps of each.
 _TOLERANCE, _MOST = 1e-7, 150

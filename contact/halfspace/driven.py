@@ -13,13 +13,11 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numpy.typing import NDArray
 
+from contact.arrays import Array
 from contact.halfspace.krylov import gmres
 from contact.halfspace.newton import INEXACT, MAX_KRYLOV, MAX_NEWTON
 from contact.halfspace.tang import Rolling
-
-Array = NDArray[np.float64]
 
 #: Smallest determinant of the Schur complement over that of a sticking contact; below it the force is nearly saturated.
 _REGULAR = 1e-6

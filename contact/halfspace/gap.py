@@ -6,8 +6,9 @@ import math
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from contact.arrays import Array
 from contact.core import entry
 from contact.errors import ContactError
 from contact.kernels import cubic
@@ -16,8 +17,6 @@ from contact.kernels.cubic import locate, slopes
 from contact.kernels.normal.lay import find_patches, least_point
 from contact.kernels.records import MAX_PATCHES
 from contact.separation import Separation
-
-Array = NDArray[np.float64]
 
 #: Most elements along one side of a grid.
 MAX_SIDE = 2000

@@ -18,11 +18,11 @@ from typing import Annotated, Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from contact.arrays import Array
 from contact.core import Shape, entry, kernel
 from contact.kernels.arrays import Matrix
 from contact.material import Material
 
-Array = NDArray[np.float64]
 ComplexMatrix = Annotated[Any, Shape(np.complex128, 2)]
 ComplexCube = Annotated[Any, Shape(np.complex128, 3)]
 #: Transfer functions xx, yy, xy; real for even influence numbers.

@@ -14,13 +14,11 @@ import math
 from collections.abc import Callable
 
 import numpy as np
-from numpy.typing import NDArray
 
+from contact.arrays import Array
 from contact.halfspace import influence
 from contact.material import Material
 from contact.solution import Strips
-
-Array = NDArray[np.float64]
 
 _STATES = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
 

@@ -12,13 +12,11 @@ from collections.abc import Callable
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
+from contact.arrays import Array
 from contact.halfspace import zones
 from contact.halfspace.influence import Influence, Transfer
 from contact.halfspace.krylov import gmres, size
-
-Array = NDArray[np.float64]
 
 #: Limits: Newton steps, and GMRES steps in each of them.
 MAX_NEWTON, MAX_KRYLOV = 25, 80

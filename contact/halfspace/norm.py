@@ -17,14 +17,13 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from contact.arrays import Array
 from contact.core import entry
 from contact.halfspace.curved import Curved
 from contact.halfspace.influence import Influence
 from contact.halfspace.krylov import dot, size
 from contact.kernels.arrays import Flags, Matrix
 from contact.material import Material
-
-Array = NDArray[np.float64]
 
 #: Limits: iterations at given approach, and steps of the approach at given load.
 MAX_ITERATIONS, MAX_STEPS = 300, 30

@@ -8,8 +8,8 @@ from dataclasses import replace
 from typing import Any, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
+from contact.arrays import Array
 from contact.case import set_surface
 from contact.creepage import Creepage
 from contact.friction import Friction
@@ -26,8 +26,6 @@ from contact.kernels.friction import of_bodies
 from contact.kernels.records import CASE
 from contact.material import Material
 from contact.solution import Status
-
-Array = NDArray[np.float64]
 
 #: Iteration of friction that depends on local slip velocity or temperature: largest number of steps, relaxation factor,
 #: tolerance over mu.

@@ -5,16 +5,15 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from contact.arrays import Array
 from contact.creepage import Creepage
 from contact.halfspace.bent import Bent, Surface
 from contact.halfspace.tang import Tangential
 from contact.halfspace.third_body import Sheared
 from contact.material import Material
 from contact.solution import Solution, Status, Strips
-
-Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True, repr=False, eq=False)

@@ -7,8 +7,8 @@ from dataclasses import replace
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from contact.arrays import Array
 from contact.errors import ContactError
 from contact.friction import Friction
 from contact.halfspace.bent import Surface
@@ -19,8 +19,6 @@ from contact.halfspace.third_body import ThirdBody
 from contact.material import Material
 from contact.separation import Separation
 from contact.solution import Solution, Status
-
-Array = NDArray[np.float64]
 
 #: Elements on which the approach under a load is estimated, and the largest number of steps of that estimate.
 _COARSE, _MAX_STEPS = Division(20, 20), 40

@@ -23,6 +23,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from contact.arrays import Array
 from contact.creepage import Creepage
 from contact.halfspace import zones
 from contact.halfspace.bent import Bent
@@ -30,7 +31,6 @@ from contact.halfspace.influence import Influence, tangential
 from contact.halfspace.newton import Newton, Operator
 from contact.material import Material
 
-Array = NDArray[np.float64]
 Window = tuple[slice, slice]
 
 #: Position of the rigid slip ahead of the element's centre, over dx. The value is that of CONTACT.

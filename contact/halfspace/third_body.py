@@ -17,13 +17,12 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from contact.arrays import Array
 from contact.errors import require_number
 from contact.halfspace import linear
 from contact.halfspace.tang import Tangential
 from contact.material import Material
 from contact.solution import Strips
-
-Array = NDArray[np.float64]
 
 #: Elements along a strip for linear theory.
 _COARSE = 16

@@ -19,8 +19,8 @@ from collections.abc import Callable
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import NDArray
 
+from contact.arrays import Array
 from contact.creepage import Creepage
 from contact.errors import ContactError, require_number, require_pair
 from contact.friction import Friction, as_friction
@@ -36,8 +36,6 @@ from contact.halfspace.solve import grid_of, status_of
 from contact.halfspace.tang import OFFSET, Tangential, rigid_slip
 from contact.material import STEEL, Material
 from contact.separation import Separation
-
-Array = NDArray[np.float64]
 
 #: A step that Newton's iteration does not solve from the last traction is led there in this number of parts.
 _PARTS = 5

@@ -16,10 +16,9 @@ import math
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from contact.arrays import Array
 from contact.halfspace.influence import fast_length
 from contact.material import Material
-
-Array = NDArray[np.float64]
 
 
 def integrals(X: ArrayLike, Y: ArrayLike, dx: float, dy: float) -> tuple[Array, Array]:

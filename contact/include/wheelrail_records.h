@@ -203,40 +203,6 @@ typedef struct {
 } wr_case;
 #if defined(__STDC_VERSION__) && __STDC_VERSION__ >= 201112L
 _Static_assert(sizeof(wr_case) == 272, "wr_case");
-_Static_assert(offsetof(wr_case, load_kind) == 0, "wr_case.load_kind");
-_Static_assert(offsetof(wr_case, amount) == 8, "wr_case.amount");
-_Static_assert(offsetof(wr_case, normal) == 16, "wr_case.normal");
-_Static_assert(offsetof(wr_case, normal_family) == 24, "wr_case.normal_family");
-_Static_assert(offsetof(wr_case, tangential) == 32, "wr_case.tangential");
-_Static_assert(offsetof(wr_case, tangential_family) == 40, "wr_case.tangential_family");
-_Static_assert(offsetof(wr_case, vx) == 48, "wr_case.vx");
-_Static_assert(offsetof(wr_case, vy) == 56, "wr_case.vy");
-_Static_assert(offsetof(wr_case, phi) == 64, "wr_case.phi");
-_Static_assert(offsetof(wr_case, speed) == 72, "wr_case.speed");
-_Static_assert(offsetof(wr_case, G) == 80, "wr_case.G");
-_Static_assert(offsetof(wr_case, nu) == 88, "wr_case.nu");
-_Static_assert(offsetof(wr_case, pressure_limit) == 96, "wr_case.pressure_limit");
-_Static_assert(offsetof(wr_case, max_iterations) == 104, "wr_case.max_iterations");
-_Static_assert(offsetof(wr_case, mu) == 112, "wr_case.mu");
-_Static_assert(offsetof(wr_case, law) == 120, "wr_case.law");
-_Static_assert(offsetof(wr_case, kinetic) == 128, "wr_case.kinetic");
-_Static_assert(offsetof(wr_case, half_speed) == 136, "wr_case.half_speed");
-_Static_assert(offsetof(wr_case, velocity) == 144, "wr_case.velocity");
-_Static_assert(offsetof(wr_case, slope) == 152, "wr_case.slope");
-_Static_assert(offsetof(wr_case, slope_far) == 160, "wr_case.slope_far");
-_Static_assert(offsetof(wr_case, slope_rate) == 168, "wr_case.slope_rate");
-_Static_assert(offsetof(wr_case, gauge_factor) == 176, "wr_case.gauge_factor");
-_Static_assert(offsetof(wr_case, border) == 184, "wr_case.border");
-_Static_assert(offsetof(wr_case, border_width) == 192, "wr_case.border_width");
-_Static_assert(offsetof(wr_case, k_A) == 200, "wr_case.k_A");
-_Static_assert(offsetof(wr_case, k_S) == 208, "wr_case.k_S");
-_Static_assert(offsetof(wr_case, drop) == 216, "wr_case.drop");
-_Static_assert(offsetof(wr_case, warm) == 224, "wr_case.warm");
-_Static_assert(offsetof(wr_case, warm_range) == 232, "wr_case.warm_range");
-_Static_assert(offsetof(wr_case, heating) == 240, "wr_case.heating");
-_Static_assert(offsetof(wr_case, conformal) == 248, "wr_case.conformal");
-_Static_assert(offsetof(wr_case, rolling) == 256, "wr_case.rolling");
-_Static_assert(offsetof(wr_case, tolerance) == 264, "wr_case.tolerance");
 #endif
 
 typedef struct {
@@ -264,27 +230,6 @@ typedef struct {
 } wr_result;
 #if defined(__STDC_VERSION__) && __STDC_VERSION__ >= 201112L
 _Static_assert(sizeof(wr_result) == 224, "wr_result");
-_Static_assert(offsetof(wr_result, Fx) == 0, "wr_result.Fx");
-_Static_assert(offsetof(wr_result, Fy) == 8, "wr_result.Fy");
-_Static_assert(offsetof(wr_result, Mz) == 16, "wr_result.Mz");
-_Static_assert(offsetof(wr_result, N) == 24, "wr_result.N");
-_Static_assert(offsetof(wr_result, approach) == 32, "wr_result.approach");
-_Static_assert(offsetof(wr_result, pmax) == 40, "wr_result.pmax");
-_Static_assert(offsetof(wr_result, area) == 48, "wr_result.area");
-_Static_assert(offsetof(wr_result, slip_area) == 56, "wr_result.slip_area");
-_Static_assert(offsetof(wr_result, power) == 64, "wr_result.power");
-_Static_assert(offsetof(wr_result, stiffness) == 72, "wr_result.stiffness");
-_Static_assert(offsetof(wr_result, length) == 80, "wr_result.length");
-_Static_assert(offsetof(wr_result, width) == 88, "wr_result.width");
-_Static_assert(offsetof(wr_result, n_patches) == 96, "wr_result.n_patches");
-_Static_assert(offsetof(wr_result, iterations) == 104, "wr_result.iterations");
-_Static_assert(offsetof(wr_result, status) == 112, "wr_result.status");
-_Static_assert(offsetof(wr_result, limited) == 120, "wr_result.limited");
-_Static_assert(offsetof(wr_result, pressure_y) == 128, "wr_result.pressure_y");
-_Static_assert(offsetof(wr_result, touch) == 136, "wr_result.touch");
-_Static_assert(offsetof(wr_result, gap_error) == 144, "wr_result.gap_error");
-_Static_assert(offsetof(wr_result, bend) == 152, "wr_result.bend");
-_Static_assert(offsetof(wr_result, edges) == 160, "wr_result.edges");
 #endif
 
 typedef struct {
@@ -307,22 +252,6 @@ typedef struct {
 } wr_motion;
 #if defined(__STDC_VERSION__) && __STDC_VERSION__ >= 201112L
 _Static_assert(sizeof(wr_motion) == 128, "wr_motion");
-_Static_assert(offsetof(wr_motion, y) == 0, "wr_motion.y");
-_Static_assert(offsetof(wr_motion, z) == 8, "wr_motion.z");
-_Static_assert(offsetof(wr_motion, roll) == 16, "wr_motion.roll");
-_Static_assert(offsetof(wr_motion, yaw) == 24, "wr_motion.yaw");
-_Static_assert(offsetof(wr_motion, vx) == 32, "wr_motion.vx");
-_Static_assert(offsetof(wr_motion, vy) == 40, "wr_motion.vy");
-_Static_assert(offsetof(wr_motion, vz) == 48, "wr_motion.vz");
-_Static_assert(offsetof(wr_motion, roll_rate) == 56, "wr_motion.roll_rate");
-_Static_assert(offsetof(wr_motion, yaw_rate) == 64, "wr_motion.yaw_rate");
-_Static_assert(offsetof(wr_motion, spin) == 72, "wr_motion.spin");
-_Static_assert(offsetof(wr_motion, rail_y) == 80, "wr_motion.rail_y");
-_Static_assert(offsetof(wr_motion, rail_z) == 88, "wr_motion.rail_z");
-_Static_assert(offsetof(wr_motion, rail_roll) == 96, "wr_motion.rail_roll");
-_Static_assert(offsetof(wr_motion, rail_vy) == 104, "wr_motion.rail_vy");
-_Static_assert(offsetof(wr_motion, rail_vz) == 112, "wr_motion.rail_vz");
-_Static_assert(offsetof(wr_motion, rail_roll_rate) == 120, "wr_motion.rail_roll_rate");
 #endif
 
 typedef struct {
@@ -336,13 +265,6 @@ typedef struct {
 } wr_elastic_rail;
 #if defined(__STDC_VERSION__) && __STDC_VERSION__ >= 201112L
 _Static_assert(sizeof(wr_elastic_rail) == 56, "wr_elastic_rail");
-_Static_assert(offsetof(wr_elastic_rail, ky) == 0, "wr_elastic_rail.ky");
-_Static_assert(offsetof(wr_elastic_rail, kz) == 8, "wr_elastic_rail.kz");
-_Static_assert(offsetof(wr_elastic_rail, preload_y) == 16, "wr_elastic_rail.preload_y");
-_Static_assert(offsetof(wr_elastic_rail, preload_z) == 24, "wr_elastic_rail.preload_z");
-_Static_assert(offsetof(wr_elastic_rail, dy) == 32, "wr_elastic_rail.dy");
-_Static_assert(offsetof(wr_elastic_rail, dz) == 40, "wr_elastic_rail.dz");
-_Static_assert(offsetof(wr_elastic_rail, balanced) == 48, "wr_elastic_rail.balanced");
 #endif
 
 typedef struct {
@@ -361,18 +283,6 @@ typedef struct {
 } wr_wheel_offset;
 #if defined(__STDC_VERSION__) && __STDC_VERSION__ >= 201112L
 _Static_assert(sizeof(wr_wheel_offset) == 96, "wr_wheel_offset");
-_Static_assert(offsetof(wr_wheel_offset, x) == 0, "wr_wheel_offset.x");
-_Static_assert(offsetof(wr_wheel_offset, y) == 8, "wr_wheel_offset.y");
-_Static_assert(offsetof(wr_wheel_offset, z) == 16, "wr_wheel_offset.z");
-_Static_assert(offsetof(wr_wheel_offset, roll) == 24, "wr_wheel_offset.roll");
-_Static_assert(offsetof(wr_wheel_offset, pitch) == 32, "wr_wheel_offset.pitch");
-_Static_assert(offsetof(wr_wheel_offset, yaw) == 40, "wr_wheel_offset.yaw");
-_Static_assert(offsetof(wr_wheel_offset, x_rate) == 48, "wr_wheel_offset.x_rate");
-_Static_assert(offsetof(wr_wheel_offset, y_rate) == 56, "wr_wheel_offset.y_rate");
-_Static_assert(offsetof(wr_wheel_offset, z_rate) == 64, "wr_wheel_offset.z_rate");
-_Static_assert(offsetof(wr_wheel_offset, roll_rate) == 72, "wr_wheel_offset.roll_rate");
-_Static_assert(offsetof(wr_wheel_offset, pitch_rate) == 80, "wr_wheel_offset.pitch_rate");
-_Static_assert(offsetof(wr_wheel_offset, yaw_rate) == 88, "wr_wheel_offset.yaw_rate");
 #endif
 
 typedef struct {
@@ -403,30 +313,6 @@ typedef struct {
 } wr_patch;
 #if defined(__STDC_VERSION__) && __STDC_VERSION__ >= 201112L
 _Static_assert(sizeof(wr_patch) == 192, "wr_patch");
-_Static_assert(offsetof(wr_patch, N) == 0, "wr_patch.N");
-_Static_assert(offsetof(wr_patch, Fx) == 8, "wr_patch.Fx");
-_Static_assert(offsetof(wr_patch, Fy) == 16, "wr_patch.Fy");
-_Static_assert(offsetof(wr_patch, Mx) == 24, "wr_patch.Mx");
-_Static_assert(offsetof(wr_patch, My) == 32, "wr_patch.My");
-_Static_assert(offsetof(wr_patch, Mz) == 40, "wr_patch.Mz");
-_Static_assert(offsetof(wr_patch, x) == 48, "wr_patch.x");
-_Static_assert(offsetof(wr_patch, y) == 56, "wr_patch.y");
-_Static_assert(offsetof(wr_patch, z) == 64, "wr_patch.z");
-_Static_assert(offsetof(wr_patch, angle) == 72, "wr_patch.angle");
-_Static_assert(offsetof(wr_patch, area) == 80, "wr_patch.area");
-_Static_assert(offsetof(wr_patch, pmax) == 88, "wr_patch.pmax");
-_Static_assert(offsetof(wr_patch, longitudinal) == 96, "wr_patch.longitudinal");
-_Static_assert(offsetof(wr_patch, lateral) == 104, "wr_patch.lateral");
-_Static_assert(offsetof(wr_patch, spin) == 112, "wr_patch.spin");
-_Static_assert(offsetof(wr_patch, approach) == 120, "wr_patch.approach");
-_Static_assert(offsetof(wr_patch, rail_y) == 128, "wr_patch.rail_y");
-_Static_assert(offsetof(wr_patch, rail_z) == 136, "wr_patch.rail_z");
-_Static_assert(offsetof(wr_patch, wheel_y) == 144, "wr_patch.wheel_y");
-_Static_assert(offsetof(wr_patch, wheel_z) == 152, "wr_patch.wheel_z");
-_Static_assert(offsetof(wr_patch, used_friction) == 160, "wr_patch.used_friction");
-_Static_assert(offsetof(wr_patch, gap_error) == 168, "wr_patch.gap_error");
-_Static_assert(offsetof(wr_patch, status) == 176, "wr_patch.status");
-_Static_assert(offsetof(wr_patch, pitch) == 184, "wr_patch.pitch");
 #endif
 
 typedef struct {
@@ -444,17 +330,6 @@ typedef struct {
 } wr_damage;
 #if defined(__STDC_VERSION__) && __STDC_VERSION__ >= 201112L
 _Static_assert(sizeof(wr_damage) == 88, "wr_damage");
-_Static_assert(offsetof(wr_damage, T_gamma) == 0, "wr_damage.T_gamma");
-_Static_assert(offsetof(wr_damage, T_gamma_spin) == 8, "wr_damage.T_gamma_spin");
-_Static_assert(offsetof(wr_damage, dissipation) == 16, "wr_damage.dissipation");
-_Static_assert(offsetof(wr_damage, pearce_sherratt) == 24, "wr_damage.pearce_sherratt");
-_Static_assert(offsetof(wr_damage, burstow) == 32, "wr_damage.burstow");
-_Static_assert(offsetof(wr_damage, usfd) == 40, "wr_damage.usfd");
-_Static_assert(offsetof(wr_damage, archard_depth) == 48, "wr_damage.archard_depth");
-_Static_assert(offsetof(wr_damage, archard_volume) == 56, "wr_damage.archard_volume");
-_Static_assert(offsetof(wr_damage, fatigue_index) == 64, "wr_damage.fatigue_index");
-_Static_assert(offsetof(wr_damage, stress_index) == 72, "wr_damage.stress_index");
-_Static_assert(offsetof(wr_damage, energy_index) == 80, "wr_damage.energy_index");
 #endif
 
 typedef struct {
@@ -491,36 +366,6 @@ typedef struct {
 } wr_total;
 #if defined(__STDC_VERSION__) && __STDC_VERSION__ >= 201112L
 _Static_assert(sizeof(wr_total) == 240, "wr_total");
-_Static_assert(offsetof(wr_total, Fx) == 0, "wr_total.Fx");
-_Static_assert(offsetof(wr_total, Fy) == 8, "wr_total.Fy");
-_Static_assert(offsetof(wr_total, Fz) == 16, "wr_total.Fz");
-_Static_assert(offsetof(wr_total, Mx) == 24, "wr_total.Mx");
-_Static_assert(offsetof(wr_total, My) == 32, "wr_total.My");
-_Static_assert(offsetof(wr_total, Mz) == 40, "wr_total.Mz");
-_Static_assert(offsetof(wr_total, z) == 48, "wr_total.z");
-_Static_assert(offsetof(wr_total, n_patches) == 56, "wr_total.n_patches");
-_Static_assert(offsetof(wr_total, status) == 64, "wr_total.status");
-_Static_assert(offsetof(wr_total, pmax) == 72, "wr_total.pmax");
-_Static_assert(offsetof(wr_total, area) == 80, "wr_total.area");
-_Static_assert(offsetof(wr_total, slip_area) == 88, "wr_total.slip_area");
-_Static_assert(offsetof(wr_total, power) == 96, "wr_total.power");
-_Static_assert(offsetof(wr_total, gap_error) == 104, "wr_total.gap_error");
-_Static_assert(offsetof(wr_total, N) == 112, "wr_total.N");
-_Static_assert(offsetof(wr_total, Q) == 120, "wr_total.Q");
-_Static_assert(offsetof(wr_total, Y) == 128, "wr_total.Y");
-_Static_assert(offsetof(wr_total, Y_over_Q) == 136, "wr_total.Y_over_Q");
-_Static_assert(offsetof(wr_total, used_friction) == 144, "wr_total.used_friction");
-_Static_assert(offsetof(wr_total, T_gamma) == 152, "wr_total.T_gamma");
-_Static_assert(offsetof(wr_total, T_gamma_spin) == 160, "wr_total.T_gamma_spin");
-_Static_assert(offsetof(wr_total, dissipation) == 168, "wr_total.dissipation");
-_Static_assert(offsetof(wr_total, pearce_sherratt) == 176, "wr_total.pearce_sherratt");
-_Static_assert(offsetof(wr_total, burstow) == 184, "wr_total.burstow");
-_Static_assert(offsetof(wr_total, usfd) == 192, "wr_total.usfd");
-_Static_assert(offsetof(wr_total, archard_depth) == 200, "wr_total.archard_depth");
-_Static_assert(offsetof(wr_total, archard_volume) == 208, "wr_total.archard_volume");
-_Static_assert(offsetof(wr_total, fatigue_index) == 216, "wr_total.fatigue_index");
-_Static_assert(offsetof(wr_total, stress_index) == 224, "wr_total.stress_index");
-_Static_assert(offsetof(wr_total, energy_index) == 232, "wr_total.energy_index");
 #endif
 
 typedef struct {
@@ -538,17 +383,6 @@ typedef struct {
 } wr_damage_parameters;
 #if defined(__STDC_VERSION__) && __STDC_VERSION__ >= 201112L
 _Static_assert(sizeof(wr_damage_parameters) == 264, "wr_damage_parameters");
-_Static_assert(offsetof(wr_damage_parameters, speed) == 0, "wr_damage_parameters.speed");
-_Static_assert(offsetof(wr_damage_parameters, wheel_radius) == 8, "wr_damage_parameters.wheel_radius");
-_Static_assert(offsetof(wr_damage_parameters, hardness) == 16, "wr_damage_parameters.hardness");
-_Static_assert(offsetof(wr_damage_parameters, shear_yield) == 24, "wr_damage_parameters.shear_yield");
-_Static_assert(offsetof(wr_damage_parameters, rail_wear) == 32, "wr_damage_parameters.rail_wear");
-_Static_assert(offsetof(wr_damage_parameters, with_spin) == 40, "wr_damage_parameters.with_spin");
-_Static_assert(offsetof(wr_damage_parameters, wear_law) == 48, "wr_damage_parameters.wear_law");
-_Static_assert(offsetof(wr_damage_parameters, pearce_sherratt) == 56, "wr_damage_parameters.pearce_sherratt");
-_Static_assert(offsetof(wr_damage_parameters, burstow) == 112, "wr_damage_parameters.burstow");
-_Static_assert(offsetof(wr_damage_parameters, usfd) == 152, "wr_damage_parameters.usfd");
-_Static_assert(offsetof(wr_damage_parameters, archard) == 208, "wr_damage_parameters.archard");
 #endif
 
 /* Damage constants of `contact.damage.DamageParameters()` for steel. */

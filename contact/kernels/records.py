@@ -178,6 +178,8 @@ LOBE = _record(
     x_high          [m]
     moment_x        weight times x
     slant           weight times the x component of the rail's normal
+    step_x          between the points at which the lobe was measured [m]
+    step_y          [m]
     """,
 )
 
@@ -206,6 +208,10 @@ PATCH = _record(
     share           weight of the patch, normally 1; below 1 in the transition to separate planes
     pitch           inclination of the frame's normal along the track, forward positive [rad]
     fit_error       of the parabolas along x of a surface, root mean square over the approach [-]
+    back            range of the plane that contains the interpenetration, along x [m]; only for surfaces, as the following
+    front           [m]
+    left            and along y [m]
+    right           [m]
     """,
 )
 

@@ -11,12 +11,10 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numpy.typing import NDArray
 
+from contact.arrays import Array
 from contact.errors import require_number
 from contact.pair.solution import Contact, PairSolution
-
-Array = NDArray[np.float64]
 
 #: Two patches of successive steps are the same if their places on the wheel are not further apart than this [m].
 _SAME = 5e-3

@@ -5,21 +5,25 @@ It is the reference for `contact.pair.WheelRailPair`, which solves the same surf
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from dataclasses import replace
+
 from contact.errors import ContactError, require_number
 from contact.friction import Friction
-from contact.geometry.posed import MAX_PENETRATION
 from contact.geometry.records import Irregularity, Pose, Velocity
 from contact.geometry.surfaces import SurfacePair, SurfacePatch
-from contact.geometry.surfaces.search import Scene
+from contact.kernels.enumerations import Height
 from contact.pair.motion import AnyPair
 from contact.pair.solution import PairSolution, Solved, of_patches
 from contact.pair.wheel_rail import WheelRailPair
 from contact.registry import DEFAULT_TANGENTIAL
+from contact.solution import Status
 from contact.solve import solve
 
 #: Iteration for a vertical force with friction: largest number of steps, and tolerances relative to the force. On rough
 #: surfaces the force jumps with z when the grid takes in another row, so after half of the steps the wider one counts.
 _MOST_STEPS, _TOLERANCE, _WIDER = 16, 1e-4, 2e-3
+_MISSED = 1e-3  # relative error of a load above which the status tells of it, as for strips
 
 
 class HalfspacePair(AnyPair):
@@ -75,35 +79,34 @@ class HalfspacePair(AnyPair):
         Raises
         ------
         ContactError
-            For input outside its range, if the wheel does not lie above the rail, or if no z gives the force.
+            For input outside its range, if the wheel does not lie above the rail, or if no z gives the force. Where the
+            force jumps over a `load`, the status is NOT_CONVERGED instead.
         """
         velocity, given = velocity or Velocity(), {"load": load, "penetration": penetration, "vertical": vertical}
         if sum(amount is not None for amount in given.values()) > 1:
             raise ContactError(f"of {given} only one may be given")
-        scene = self.pair.scene(pose, station, rotation, irregularity)
         if vertical is not None:
-            return self._under(require_number("vertical", vertical, 0.0), pose, velocity, friction, scene)
-        z = pose.z
-        if load is not None:
-            z = self._settled(scene, require_number("load", load, 0.0))
-        elif penetration is not None:
-            z = scene.touch() + require_number("penetration", penetration, 0.0, MAX_PENETRATION)
-        return self._at(z, scene, pose, velocity, friction)
+            require_number("vertical", vertical, 0.0)
+        self.pair.place(pose, velocity, station=station, rotation=rotation, irregularity=irregularity)
+        if vertical is not None:
+            return self._under(vertical, pose, velocity, friction)
+        mode, amount = self.pair.prescribed(load, penetration)
+        if mode != Height.LOAD:
+            return self._solution(self.pair.found(mode, amount), pose, velocity, friction)
+        missed = self.pair.settle(amount)
+        found = self._solution(self.pair.found(), pose, velocity, friction)
+        return replace(found, status=Status.NOT_CONVERGED) if missed > _MISSED else found
 
-    def _settled(self, scene: Scene, load: float) -> float:
-        """Return z [m] at which the pressures carry a vertical load."""
-        return self.pair.settle(scene, load, lambda z: self.pair.carried(scene, z))
-
-    def _at(self, z: float, scene: Scene, pose: Pose, velocity: Velocity, friction: float | Friction) -> PairSolution:
-        """Return the solution at the height z [m]."""
-        found = [self._solved(patch, velocity, friction) for patch in self.pair.patches(scene, z, velocity)]
+    def _solution(
+        self, patches: Sequence[SurfacePatch], pose: Pose, velocity: Velocity, friction: float | Friction
+    ) -> PairSolution:
+        """Return the solution of patches, which the last search has found."""
         radius = self.pair.nominal_radius
         spin = -velocity.forward / radius if velocity.spin is None else velocity.spin
-        return of_patches(found, pose, z, self.pair.side, radius, spin)
+        found = [self._solved(patch, velocity, friction) for patch in patches]
+        return of_patches(found, pose, self.pair.z, self.pair.side, radius, spin)
 
-    def _under(
-        self, vertical: float, pose: Pose, velocity: Velocity, friction: float | Friction, scene: Scene
-    ) -> PairSolution:
+    def _under(self, vertical: float, pose: Pose, velocity: Velocity, friction: float | Friction) -> PairSolution:
         """Return the solution under a vertical force.
 
         The normal forces carry it less the vertical part of friction, which is found by the secant method, from the force
@@ -111,7 +114,8 @@ class HalfspacePair(AnyPair):
         """
         carried, before = vertical, None
         for step in range(_MOST_STEPS):
-            found = self._at(self._settled(scene, carried), scene, pose, velocity, friction)
+            self.pair.settle(carried)
+            found = self._solution(self.pair.found(), pose, velocity, friction)
             miss = vertical - found.Q
             if abs(miss) <= (_TOLERANCE if step < _MOST_STEPS // 2 else _WIDER) * vertical:
                 return found

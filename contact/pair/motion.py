@@ -10,8 +10,9 @@ from inspect import signature
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from contact.arrays import Array
 from contact.errors import ContactError, require_number
 from contact.friction import Friction, as_friction
 from contact.geometry.flexible import WheelOffset
@@ -21,8 +22,6 @@ from contact.pair.contact_damping import ContactDamping
 from contact.pair.elastic_rail import ElasticRail
 from contact.pair.friction_memory import FrictionMemory
 from contact.pair.solution import PairSolution
-
-Array = NDArray[np.float64]
 
 MOST_ROWS = 1_000_000
 TIME, STATION, LOAD, COEFFICIENT = "time", "station", "load.normal_force", "friction.coefficient"

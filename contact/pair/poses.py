@@ -10,6 +10,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from contact.arrays import Array
 from contact.case import set_surface
 from contact.creepage import LARGEST_CREEPAGE
 from contact.errors import ContactError
@@ -23,7 +24,6 @@ from contact.pair.wheel_rail import WheelRailPair
 from contact.plausibility import doubt_values
 from contact.solution import Status
 
-Array = NDArray[np.float64]
 _CHUNK = 64  # poses between two reports of progress
 
 

@@ -182,7 +182,7 @@ class RollerRig(AnyPair):
                 throw=False,
                 **self._options,
             )
-            found.append(Solved(patch, s, Frame.about_x(np.zeros(3), patch.angle).axes))
+            found.append(Solved(patch, s, Frame.turned(np.zeros(3), patch.angle).axes))
         z = pose.z if penetration is None else self.pair.z + self._lower
         radius = self.pair.nominal_radius
         spin = -velocity.forward / radius if velocity.spin is None else velocity.spin

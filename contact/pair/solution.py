@@ -8,16 +8,14 @@ from dataclasses import dataclass, field
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
+from contact.arrays import Array
 from contact.creepage import Creepage
 from contact.damage import Damage, evaluate
 from contact.geometry.records import Patch, Pose, contact_angle
 from contact.geometry.surfaces import SurfacePatch
 from contact.notebook import beside, table
 from contact.solution import PairJacobian, Solution, Status
-
-Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True, slots=True)
@@ -215,7 +213,7 @@ def of_patches(
         moment += np.array([contact.Mx, contact.My, contact.Mz]) @ one.axes
         moment += np.cross(np.array(contact.position) - centre, own)
     Q, Y = -float(force[2]), -float(force[1]) if side == "right" else float(force[1])
-    shares = [_share(one.patch) for one in found]
+    shares = [one.patch.share for one in found]
     N = sum(contact.N for contact in contacts)
     return PairSolution(
         force=force,
@@ -237,13 +235,9 @@ def of_patches(
     )
 
 
-def _share(patch: Patch | SurfacePatch) -> float:
-    return patch.share if isinstance(patch, Patch) else 1.0
-
-
 def _contact(one: Solved) -> Contact:
     """Return the contact of a solved patch. The pressure's moments are those about the origin of its frame."""
-    patch, s, share = one.patch, one.solution, _share(one.patch)
+    patch, s, share = one.patch, one.solution, one.patch.share
     pressing = s.p * s.dA
     return Contact(
         N=share * s.N,
@@ -258,8 +252,8 @@ def _contact(one: Solved) -> Contact:
         max_pressure=s.max_pressure,
         creepage=s.creepage,
         approach=s.approach,
-        on_rail=patch.on_rail if isinstance(patch, Patch) else (0.0, 0.0),
-        on_wheel=patch.on_wheel if isinstance(patch, Patch) else (0.0, 0.0),
+        on_rail=patch.on_rail,
+        on_wheel=patch.on_wheel,
         used_friction=s.used_friction,
         status=s.status,
         gap_error=s.gap_error,

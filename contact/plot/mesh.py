@@ -3,12 +3,10 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
+from contact.arrays import Array
 from contact.plot.style import MM
 from contact.solution import Solution
-
-Array = NDArray[np.float64]
 
 
 class PatchMesh:

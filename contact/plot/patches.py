@@ -11,15 +11,13 @@ from matplotlib.cm import ScalarMappable
 from matplotlib.colors import Colormap, Normalize
 from matplotlib.figure import Figure, FigureBase
 from matplotlib.ticker import MultipleLocator
-from numpy.typing import NDArray
 
+from contact.arrays import Array
 from contact.damage import evaluate
 from contact.errors import ContactError
 from contact.plot.mesh import PatchMesh
 from contact.plot.style import DPI, FAINT, INK, colour_map, nice, style
 from contact.solution import Solution
-
-Array = NDArray[np.float64]
 
 
 def patch(

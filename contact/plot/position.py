@@ -10,8 +10,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from numpy.typing import NDArray
 
+from contact.arrays import Array
 from contact.errors import ContactError
 from contact.plot.patches import Scale, patch
 from contact.plot.style import DPI, FAINT, INK, LINES, MM, style
@@ -20,8 +20,6 @@ from contact.solution import Solution
 if TYPE_CHECKING:
     from contact.geometry.profile import Profile
     from contact.geometry.records import Patch
-
-Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True)

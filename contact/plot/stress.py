@@ -5,15 +5,13 @@ from __future__ import annotations
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from numpy.typing import NDArray
 
+from contact.arrays import Array
 from contact.errors import ContactError
 from contact.plot.style import DPI, FAINT, INK, MM, colour_map, looks, nice, style
 from contact.solution import Solution
 from contact.stress import SurfaceLoad, at, below, largest
 from contact.stress.field import CRITERIA, Peak
-
-Array = NDArray[np.float64]
 
 _NAMES = dict(zip(CRITERIA, ("von Mises", "Tresca", "largest principal", "|τ xz|", "|τ yz|"), strict=True))
 #: Depths of the figure, and the deepest over the radius of a circle with the contact's area.

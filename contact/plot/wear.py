@@ -8,8 +8,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from contact.arrays import Array
 from contact.errors import ContactError, require_number
 from contact.plot.style import DPI, FAINT, INK, LINES, MM, looks, style
 
@@ -17,7 +18,6 @@ if TYPE_CHECKING:
     from contact.accumulation import Histogram
     from contact.geometry.profile import Profile
 
-Array = NDArray[np.float64]
 
 _UM = 1e6
 _THOUSAND = 1e3  # metres, or axle passes

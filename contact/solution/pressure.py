@@ -6,16 +6,15 @@ import math
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from contact.arrays import Array
 from contact.kernels.arrays import PatchStrips
 from contact.kernels.stress.load import add_pressures
 from contact.notebook import Sketch
 
 if TYPE_CHECKING:
     from contact.solution.solution import Solution, Strips
-
-Array = NDArray[np.float64]
 
 
 def pressure_at(solution: Solution, x: ArrayLike, y: ArrayLike) -> Array:

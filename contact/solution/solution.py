@@ -12,6 +12,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from contact.arrays import Array
 from contact.creepage import Creepage
 from contact.damage import Damage, evaluate
 from contact.errors import only_with_fields
@@ -26,7 +27,6 @@ from contact.registry import methods
 from contact.solution.jacobian import Jacobian
 from contact.solution.pressure import pressure_at, sketch
 
-Array = NDArray[np.float64]
 Records = NDArray[np.void]
 
 #: Change of the contact angle over a patch above which a plane contact may be wrong [rad] (docs/check/limits.md).

@@ -16,13 +16,12 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from contact.arrays import Array
 from contact.errors import ContactError, require_number
 from contact.solution import Solution
 from contact.stress.field import Peak
 from contact.stress.half_space import below
 from contact.stress.load import SurfaceLoad
-
-Array = NDArray[np.float64]
 
 #: Walk to the centre of the smallest sphere: largest number of steps, and what counts as zero.
 _MAX_STEPS, _SMALL = 200, 1e-12

@@ -5,11 +5,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from contact.arrays import Array
 from contact.errors import ContactError, suggestion
-
-Array = NDArray[np.float64]
 
 #: Names of the scalars of which `StressField.peak` and `contact.stress.largest` return the largest value.
 CRITERIA = ("von_mises", "tresca", "largest_principal", "shear_xz", "shear_yz")

@@ -6,8 +6,9 @@ from collections.abc import Callable
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from contact.arrays import Array
 from contact.errors import ContactError, require_number
 from contact.halfspace.influence import fast_length
 from contact.kernels.stress.below import N_LOADS, N_STRESSES, stresses_at
@@ -17,8 +18,6 @@ from contact.solution import Solution
 from contact.stress.field import Peak, StressField, require_criterion
 from contact.stress.load import SurfaceLoad
 from contact.stress.response import Grid, stresses
-
-Array = NDArray[np.float64]
 
 #: The bodies, and the sign of the library's traction (on the wheel) on each.
 BODIES = {"rail": -1.0, "wheel": 1.0}

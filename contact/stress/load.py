@@ -6,8 +6,9 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from contact.arrays import Array
 from contact.errors import ContactError, require_integer
 from contact.halfspace.gap import even
 from contact.halfspace.solution import GridSolution
@@ -15,8 +16,6 @@ from contact.kernels.arrays import LoadGrid, PatchFields
 from contact.kernels.stress.load import add_load, place_centres, scale_load
 from contact.solution import Solution
 from contact.solution.pressure import limit_of, strips_of
-
-Array = NDArray[np.float64]
 
 #: Elements along each side of the box around the patch onto which a solution on strips is put.
 N_SIDE = 64

@@ -12,9 +12,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from contact.arrays import Array
 from contact.kernels.stress.below import N_LOADS, N_STRESSES, fill_corners
-
-Array = NDArray[np.float64]
 
 #: Signs of the stresses xx, yy, zz, xy, xz, yz at (-x, y) and at (x, -y) for pressure, traction along x and along y.
 _SIGNS = (

@@ -17,9 +17,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from contact.arrays import Array
 from contact.material import Material
-
-Array = NDArray[np.float64]
 
 LOAD, FRICTION, MATERIAL = 82e3, 0.3, Material(shear_modulus=82e9, poisson_ratio=0.28)
 #: a [m], b [m] and rho [m], the length that makes creepages dimensionless.

@@ -8,9 +8,9 @@ from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
-from numpy.typing import NDArray
 
 from contact import friction, workspace
+from contact.arrays import Array
 from contact.case import cases, set_surface
 from contact.errors import ContactError
 from contact.kernels.pipeline import press_case, set_rolling
@@ -21,8 +21,6 @@ from contact.registry import lookup
 from contact.study import creep_table
 from contact.study.ellipse import ellipse
 from contact.theory import force_table as table
-
-Array = NDArray[np.float64]
 
 #: Weights in the fit, relative to the errors of force over mu N and moment over mu N c. SLIP: share of slip. STIFF, for each
 #: sweep: difference of the changes from expected values, which are 0 in the first sweep and then the mean of the

@@ -12,13 +12,12 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from contact.arrays import Array
 from contact.errors import ContactError, require_integer, suggestion
 from contact.pair import WheelRailPair, over_poses
 from contact.study.files import require_ending
-
-Array = NDArray[np.float64]
 
 #: Axes in the order of the tables' dimensions, and the units.
 AXES = {

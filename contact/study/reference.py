@@ -11,8 +11,8 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from contact.arrays import Array
 from contact.creepage import Creepage
 from contact.errors import ContactError
 from contact.forces import cores
@@ -21,7 +21,6 @@ from contact.solve import solve
 from contact.study.design import ELLIPSES, FRICTION, LOAD, MATERIAL, Design
 from contact.study.ellipse import ellipse
 
-Array = NDArray[np.float64]
 Forces = tuple[float, float, float]
 _CHUNK = 20
 

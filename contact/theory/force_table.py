@@ -7,8 +7,8 @@ import math
 from pathlib import Path
 
 import numpy as np
-from numpy.typing import NDArray
 
+from contact.arrays import Array
 from contact.errors import ContactError
 from contact.kernels.tangential.table import (
     LOG_ASPECT_MAX,
@@ -21,9 +21,6 @@ from contact.kernels.tangential.table import (
     spin_weight,
 )
 from contact.theory import kalker
-
-Array = NDArray[np.float64]
-
 
 #: The tables in the package: creep forces (made by `contact table build`) and effective creepages (`table effective`).
 FILE = Path(__file__).parents[1] / "data" / "creep_table.csv"

@@ -12,12 +12,10 @@ import fmpy
 import numpy as np
 from contact_models.vehicle.coupling import QUESTION
 from fmpy.fmi2 import FMU2Model, FMU2Slave
-from numpy.typing import NDArray
 
+from contact.arrays import Array
 from contact.geometry.wheelset import Irregularity, Pose, Velocity
 from contact.pair import WheelRailPair
-
-Array = NDArray[np.float64]
 
 _PATCHES = 3
 _WRENCH = tuple(f"{kind}.{axis}" for kind in ("force", "moment") for axis in "xyz")

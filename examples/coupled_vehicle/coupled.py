@@ -21,14 +21,12 @@ from contact_models.vehicle.course import lay
 from contact_models.vehicle.declared import read
 from contact_models.vehicle.kernels.layout import Axis
 from contact_models.vehicle.simulation import SIDES, ContactOptions, Simulation
-from numpy.typing import NDArray
 
+from contact.arrays import Array
 from contact.geometry import profile
 from contact.geometry.wheelset import Pair
 from contact.pair import WheelRailPair
 from examples.coupled_vehicle.contacts import InFmu, InPython
-
-Array = NDArray[np.float64]
 
 SPEED = 15.0  # [m/s]
 FRICTION = 0.3

@@ -12,15 +12,13 @@ import sys
 from pathlib import Path
 
 import numpy as np
-from numpy.typing import NDArray
 
+from contact.arrays import Array
 from contact.geometry import profile
 from contact.geometry.surfaces import RailSurface, SurfacePair
 from contact.pair import PairRun, solver_for
 from contact.plot import passage as draw
 from contact.plot import patch
-
-Array = NDArray[np.float64]
 
 BEGIN, END = 0.0, 0.6  # [m] slices; the nose begins at the third of them
 RATE = 1.0 / 20.0  # at which the wing rail leaves, and at which the nose becomes wider

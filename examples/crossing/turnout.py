@@ -9,12 +9,10 @@ from __future__ import annotations
 from pathlib import Path
 
 import numpy as np
-from numpy.typing import NDArray
 
+from contact.arrays import Array
 from contact.geometry import profile
 from contact.geometry.surfaces import RailSurface
-
-Array = NDArray[np.float64]
 
 RATE = 1.0 / 20.0
 SPACING = 0.02  # of the slices [m]

@@ -12,11 +12,9 @@ import numpy as np
 from contact_models.wheelset.parameters import WheelsetParameters
 from contact_models.wheelset.ports import POINTS
 from fmpy.fmi2 import FMU2Model
-from numpy.typing import NDArray
 
+from contact.arrays import Array
 from contact.geometry.wheelset import Pair, Patch, Pose
-
-Array = NDArray[np.float64]
 
 _APPROACH = 2  # value of load.kind
 _INPUTS = (

@@ -27,11 +27,9 @@ from exudyn.itemInterface import (
     RigidBodySpringDamper,
 )
 from exudyn.rigidBodyUtilities import RigidBodyInertia
-from numpy.typing import NDArray
 
+from contact.arrays import Array
 from examples.exudyn_wheelset.native_contact import NativeContact
-
-Array = NDArray[np.float64]
 
 AXLE_BOX = 1.0  # [m] from the centre of the axle
 VERTICAL_DAMPING = 3e4  # [N s/m] of an axle box; it damps the bounce on the elastic contacts (200 Hz)

@@ -10,14 +10,12 @@ from typing import Any
 
 import numpy as np
 from contact_models.life.scale import Workers
-from numpy.typing import NDArray
 
 import contact
+from contact.arrays import Array
 from contact.damage import fatigue_index
 from contact.geometry import profile
 from contact.geometry.wheelset import Pair, Pose, Velocity
-
-Array = NDArray[np.float64]
 
 PAIRS = (
     ("S1002", "60E1", 1 / 40),

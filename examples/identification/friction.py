@@ -15,13 +15,11 @@ import time
 from pathlib import Path
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.optimize import least_squares
 from scipy.stats import t as student
 
 import contact
-
-Array = NDArray[np.float64]
+from contact.arrays import Array
 
 SPEED, LOAD, NOISE = 20.0, 100e3, 600.0
 NAMES = ("mu_0", "A", "B [s/m]", "softness")

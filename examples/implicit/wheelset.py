@@ -17,15 +17,13 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.integrate import solve_ivp
 
+from contact.arrays import Array
 from contact.errors import ContactError
 from contact.geometry import profile
 from contact.geometry.wheelset import Irregularity, Pair, Pose, Velocity
 from contact.pair import WheelRailPair
-
-Array = NDArray[np.float64]
 
 SPEED, RADIUS, LOAD, FRICTION = 20.0, 0.460, 160e3, 0.3
 #: Mass [kg], and moments of inertia about the track [kg m²] and about the axle.

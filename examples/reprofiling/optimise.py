@@ -17,15 +17,13 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.interpolate import BSpline, CubicSpline
 from scipy.optimize import OptimizeResult, minimize
 
 import contact
+from contact.arrays import Array
 from contact.geometry import profile
 from contact.halfspace.norm import norm, response
-
-Array = NDArray[np.float64]
 
 LOAD, RADIUS = 80e3, 0.46  # of a wheel [N], rolling radius [m]
 HOLLOW = 0.5e-3, 15e-3  # depth of the wear and its half width [m]

@@ -14,13 +14,11 @@ from collections.abc import Sequence
 from pathlib import Path
 
 import numpy as np
-from numpy.typing import NDArray
 
 import contact
+from contact.arrays import Array
 from contact.geometry import profile, smoothing
 from contact.geometry.wheelset import Patch, Pose, Velocity, contacts
-
-Array = NDArray[np.float64]
 
 POSE, SPEED, RADIUS = Pose(y=4e-3, yaw=3e-3), 20.0, 0.460
 #: Input → mean and standard deviation. That of creepages is relative, as from an uncertain radius and angle of attack.

@@ -16,14 +16,12 @@ from typing import NamedTuple
 
 import numpy as np
 from matplotlib.figure import Figure
-from numpy.typing import NDArray
 
+from contact.arrays import Array
 from contact.geometry import profile
 from contact.geometry.surfaces import Flat, SurfacePair, WheelSurface
 from contact.geometry.wheelset import Pose
 from contact.pair import WheelRailPair
-
-Array = NDArray[np.float64]
 
 RADIUS = 0.460
 

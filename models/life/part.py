@@ -9,13 +9,11 @@ from operator import add
 from typing import ClassVar
 
 import numpy as np
-from numpy.typing import NDArray
 
 from contact.accumulation import Histogram, worn_profile
+from contact.arrays import Array
 from contact.geometry.profile import Profile
 from .flange import Flange
-
-Array = NDArray[np.float64]
 
 DENSITY = 7850.0  # density of steel [kg/m³]
 _LONG = 1e6  # mileage from which a rate is computed [m]: the depth is then well above the round-off of the coordinates

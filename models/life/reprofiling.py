@@ -5,13 +5,11 @@ from __future__ import annotations
 from dataclasses import asdict
 
 import numpy as np
-from numpy.typing import NDArray
 
+from contact.arrays import Array
 from contact.geometry.profile import Profile
 from .flange import Flange
 from .part import Wheel
-
-Array = NDArray[np.float64]
 
 
 def cut(worn: Profile, new: Profile) -> float:

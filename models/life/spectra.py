@@ -6,11 +6,9 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from contact.arrays import Array
 from contact.errors import ContactError, require_number, suggestion
-
-Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True, slots=True)

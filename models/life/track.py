@@ -7,12 +7,10 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from contact.arrays import Array
 from contact.errors import ContactError, require_number
 from .spectra import CHANNELS, Irregularities
-
-Array = NDArray[np.float64]
 
 RAIL_DISTANCE = 1.5  # distance of the rails' centres, over which cant is measured [m]
 _FARTHEST = 1e9  # distance or value of a measured series [m]; products of larger numbers overflow

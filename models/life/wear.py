@@ -9,9 +9,9 @@ from operator import add
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from contact.accumulation import Histogram
+from contact.arrays import Array
 from contact.errors import ContactError
 from contact.geometry import conicity
 from contact.geometry.profile import Profile
@@ -23,8 +23,6 @@ from .reprofiling import cut, forecast
 from .scale import Workers
 from .scenario import Scenario
 from .trust import TRUST, Trust, worst
-
-Array = NDArray[np.float64]
 
 #: Column of the steps → unit and meaning. The first row is the unworn vehicle.
 COLUMNS = {

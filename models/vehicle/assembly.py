@@ -7,11 +7,10 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from contact.arrays import Array
 from contact.errors import ContactError
 from .declared import Body, Damper, Joint, Spring, Stop, VehicleDeclaration, Wheelset
 from .kernels.layout import BODY, ELEMENT, LINK, Axis, Kind
-
-Array = NDArray[np.float64]
 
 GRAVITY = 9.81  # [m/s²]
 _HELD = ("x", "y", "z", "roll", "pitch", "yaw")

@@ -6,12 +6,10 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from contact.arrays import Array
 from contact.errors import ContactError, require_number
 from contact.geometry.profile import Profile
-
-Array = NDArray[np.float64]
 
 CUT_OFF = 20.0  # of the low pass of wheel forces [Hz]
 WINDOW = 2.0  # of the sliding mean of Y/Q and of the guiding force of an axle [m]

@@ -6,8 +6,8 @@ from collections.abc import Sequence
 from typing import Protocol
 
 import numpy as np
-from numpy.typing import NDArray
 
+from contact.arrays import Array
 from contact.core import pack
 from contact.errors import ContactError
 from contact.kernels.arrays import Motions
@@ -15,8 +15,6 @@ from .kernels import motion
 from .kernels.frames import speed_at
 from .kernels.layout import Book, Model, Scratch, State
 from .simulation import SIDES, Simulation
-
-Array = NDArray[np.float64]
 
 #: What a contact is asked, by the names of the inputs of the FMU `WheelRailPair`.
 QUESTION = (

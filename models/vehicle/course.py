@@ -6,13 +6,11 @@ import math
 from collections.abc import Callable
 
 import numpy as np
-from numpy.typing import NDArray
 
+from contact.arrays import Array
 from contact.errors import ContactError
 from ..life.track import RAIL_DISTANCE, Track
 from .kernels.layout import TrackRow
-
-Array = NDArray[np.float64]
 
 SPACING = 0.05  # largest distance of the places of a track [m]
 #: Largest number of places of a track; 17 rows of them take 136 MB.

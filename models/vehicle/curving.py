@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
+from contact.arrays import Array
 from contact.errors import ContactError
 from contact.friction import Friction
 from contact.geometry.profile import Profile
@@ -18,8 +18,6 @@ from .kernels.frames import carried, lay_frames
 from .kernels.layout import Axis, Book
 from .linear import coordinates
 from .simulation import ContactOptions, Simulation
-
-Array = NDArray[np.float64]
 
 _INSTANT = 1e-6  # step from which the accelerations are taken [s]
 _TRANSITION = 40.0  # at the start of the curve [m]
@@ -159,32 +157,3 @@ def in_curve(
     Equilibrium(simulation, speed).find()
     simulation.advance(_INSTANT)
     return Curving(radius, speed, cant, simulation.state.q.copy(), simulation.wheels.copy())
-
-
-def over_radius(
-    vehicle: VehicleDeclaration,
-    profiles: tuple[Profile, Profile],
-    radii: tuple[float, ...],
-    *,
-    lateral_acceleration: float = 0.0,
-    cant: float = 0.0,
-    friction: float | Friction = 0.3,
-    options: ContactOptions | None = None,
-) -> list[Curving]:
-    """Return the equilibria in curves of falling radius, at speeds with the same unbalanced lateral acceleration [m/s²].
-
-    Raises
-    ------
-    ContactError
-        If no equilibrium is found, or the acceleration needs no speed.
-    """
-    found = []
-    for radius in sorted(radii, reverse=True):
-        square = radius * (lateral_acceleration + 9.81 * cant / 1.5)
-        if square <= 0.0:
-            raise ContactError(
-                f"lateral_acceleration = {lateral_acceleration:g} m/s² with cant = {cant:g} m has no speed"
-            )
-        speed = math.sqrt(square)
-        found.append(in_curve(vehicle, profiles, radius, speed=speed, cant=cant, friction=friction, options=options))
-    return found

@@ -10,12 +10,10 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from contact.arrays import Array
 from ..life.track import Track
 from .assess import band_pass, low_pass, prudhomme, sliding_mean
-
-Array = NDArray[np.float64]
 
 #: Percentile of the largest values, and of quasi-static ones [%].
 LARGEST, QUASI_STATIC = 99.85, 50.0

@@ -6,8 +6,8 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from contact.arrays import Array
 from contact.errors import ContactError, require_number
 from contact.friction import Friction
 from contact.geometry.profile import Profile
@@ -16,8 +16,6 @@ from .course import lay
 from .declared import VehicleDeclaration
 from .kernels.layout import Axis
 from .simulation import ContactOptions, Simulation
-
-Array = NDArray[np.float64]
 
 _WINDOW = 0.5  # over which an amplitude is taken [s]
 

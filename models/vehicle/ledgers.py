@@ -3,15 +3,12 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
 from contact import workspace
 from contact.accumulation import MAXIMA, SUMS, Histogram
 from contact.kernels.memory import Ledger
 from contact.material import Material
 from .kernels.benches import Benches, bins
-
-Array = NDArray[np.float64]
 
 BODIES = ("wheel", "rail")
 _NAMES = (*SUMS, *MAXIMA)

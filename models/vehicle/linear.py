@@ -15,6 +15,7 @@ from functools import partial
 import numpy as np
 from numpy.typing import NDArray
 
+from contact.arrays import Array
 from contact.core import pack
 from contact.errors import ContactError
 from ..wheelset.stability import onset
@@ -22,8 +23,6 @@ from .kernels import motion
 from .kernels.frames import speed_at
 from .kernels.layout import Axis, Model, Scratch, State
 from .simulation import Simulation
-
-Array = NDArray[np.float64]
 
 _INSTANT = 1e-6  # step from which the accelerations are taken [s]
 #: Displacement at which the rest is linear but for round-off [m], [rad], [m/s], [rad/s].

@@ -8,9 +8,9 @@ from functools import cached_property
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from contact.accumulation import Histogram
+from contact.arrays import Array
 from contact.errors import ContactError
 from contact.geometry import conicity
 from ..life.scenario import Scenario
@@ -24,8 +24,6 @@ from .kernels.layout import Axis, Book, Sum, TrackFrame, TrackRow
 from .ledgers import BODIES, fill, ledger
 from .notebook import of_run
 from .simulation import SIDES, ContactOptions, Simulation
-
-Array = NDArray[np.float64]
 
 #: Column of the time series → unit and meaning.
 TRACK = {

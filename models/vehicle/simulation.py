@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from contact import workspace
+from contact.arrays import Array
 from contact.damage import DamageParameters
 from contact.errors import ContactError, require_number
 from contact.friction import Friction, as_friction
@@ -34,8 +35,6 @@ from .kernels.layout import Book, Model, Scratch, State, Sum, scratch
 from .notebook import of_simulation
 from .sections import RailSection, require_apart
 from .uneven import Stretch, UnevenWheels
-
-Array = NDArray[np.float64]
 
 SIDES = ("right", "left")
 #: Largest pace that is allowed, and that of scenarios.

@@ -11,8 +11,8 @@ from collections.abc import Callable, Mapping, Sequence
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
+from contact.arrays import Array
 from contact.core import pack
 from contact.geometry.surfaces import SurfacePair
 from contact.kernels.arrays import Bench, Motions, Search, SurfaceSearch
@@ -21,8 +21,6 @@ from .kernels import motion, wheels
 from .kernels.benches import Benches
 from .kernels.frames import speed_at
 from .kernels.layout import Axis, Book, Model, Scratch, State
-
-Array = NDArray[np.float64]
 
 
 class Stretch(NamedTuple):

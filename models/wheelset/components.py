@@ -5,16 +5,15 @@ from __future__ import annotations
 from typing import Any, Protocol, TypedDict, Unpack
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 import contact
+from contact.arrays import Array
 from contact.errors import ContactError
 from contact.material import Material
 from .model import WheelsetModel
 from .parameters import WheelsetParameters
 from .ports import CREEPAGE, CURVATURE, GAP, LOAD, POINTS, REPORT, SIDES
-
-Array = NDArray[np.float64]
 
 
 class Component(Protocol):

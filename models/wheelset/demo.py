@@ -12,11 +12,11 @@ from typing import Annotated, Any, cast
 
 import numpy as np
 import typer
-from numpy.typing import NDArray
 from rich.console import Console
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
 from rich.table import Table
 
+from contact.arrays import Array
 from contact.cli import options as opt
 from contact.cli.output import deliver, drawing, reported, stop
 from contact.geometry.wheelset import Pair, Pose
@@ -27,8 +27,6 @@ from .master import History, Scheme
 from .parameters import WheelsetParameters
 from .ports import CONTACT_PORTS, INWARDS, SIDES, WHEELSET_PORTS
 from .stability import critical_speed
-
-Array = NDArray[np.float64]
 
 FMUS = ("Wheelset", "WheelRailContact", "WheelRailContact")
 PICTURE: SolveOptions = {"n_strips": 60, "n_elements": 60}  # finer than the run, because pictures show single elements

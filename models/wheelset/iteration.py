@@ -5,9 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable
 
 import numpy as np
-from numpy.typing import NDArray
 
-Array = NDArray[np.float64]
+from contact.arrays import Array
 
 _FIRST_MOVE = 0.3  # share of the first change that is applied, because a steep map may be nonlinear over a full change
 

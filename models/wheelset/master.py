@@ -25,13 +25,13 @@ from typing import Literal, get_args
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from contact.arrays import Array
 from contact.errors import ContactError, require_number
 from contact.notebook import Sketch, beside, table
 from .components import Component
 from .iteration import fixed_point
 from .ports import CREEPAGE, ENERGY, FRAME, LOAD, MOTION, PROBLEM, REACTION, REPORT, SIDES
 
-Array = NDArray[np.float64]
 Scheme = Literal["gauss_seidel", "jacobi", "iterated"]
 
 #: Tolerance of the iterated scheme, over the normal load, and its largest number of iterations.

@@ -5,16 +5,14 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numpy.typing import NDArray
 
+from contact.arrays import Array
 from contact.errors import ContactError, require_number
 from contact.geometry.wheelset import Pair
 from contact.kernels.records import GIVEN
 from . import dynamics, motion
 from .parameters import WheelsetParameters
 from .ports import POINTS, SIDES
-
-Array = NDArray[np.float64]
 
 
 class WheelsetModel:

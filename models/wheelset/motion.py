@@ -7,9 +7,6 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-import numpy as np
-from numpy.typing import NDArray
-
 from contact.core import entry, group, kernel
 from contact.kernels.arrays import Givens, Matrix, Numbers, Search
 from contact.kernels.geometry.prepare import move
@@ -20,8 +17,6 @@ from contact.kernels.rows import Sep
 from . import dynamics
 from .dynamics import N_STATE, Constant, Energy, FrameRow, Side, StateRow
 from .ports import LOAD, POINTS
-
-Array = NDArray[np.float64]
 
 MET, RIGHT_APART, LEFT_APART, NO_ROLL, TURNED = range(5)
 MESSAGES = {

@@ -13,7 +13,7 @@ STRICT = ("-std=c11", "-Wall", "-Wextra", "-Werror", "-c")
 
 @pytest.mark.parametrize("system", ["linux64", "win64", "darwin64", "aarch64-linux", "aarch64-darwin"])
 def test_compilers_lay_records_as_numpy_does(tmp_path, system):
-    """The header itself asserts sizes and offsets."""
+    """The header itself asserts sizes. All members are of 8 bytes."""
     unit = tmp_path / "unit.c"
     unit.write_text(f'#include "{HEADER}"\n')
     run(*compiler(system), *STRICT, unit, "-o", tmp_path / "unit.o")
@@ -24,7 +24,7 @@ def test_another_layout_is_refused(tmp_path):
     unit, text = tmp_path / "unit.c", HEADER.read_text()
     assert text.count("double mu;") == 1
     unit.write_text(text.replace("double mu;", "double mu, more;"))
-    with pytest.raises(RuntimeError, match=r"wr_case\.law"):
+    with pytest.raises(RuntimeError, match="wr_case"):
         run(*compiler("linux64"), *STRICT, unit, "-o", tmp_path / "unit.o")
 
 

@@ -97,8 +97,8 @@ def test_a_lobe_narrower_than_the_nodes_is_found():
 )
 def test_lobes_become_patches_when_apart_in_place_and_in_angle(distance, angle, most, patches):
     lobe = np.zeros(MAX_LOBES, LOBE)
-    lobe[0] = (-0.030, -0.028, 0.0, 0.0, 1.0, -0.029, math.cos(0.5), math.sin(-0.5), *[0.0] * 5)
-    lobe[1] = (-0.016, -0.010, 0.0, 0.0, 3.0, -0.039, 3 * math.cos(0.05), 3 * math.sin(-0.05), *[0.0] * 5)
+    lobe[0] = (-0.030, -0.028, 0.0, 0.0, 1.0, -0.029, math.cos(0.5), math.sin(-0.5), *[0.0] * 7)
+    lobe[1] = (-0.016, -0.010, 0.0, 0.0, 3.0, -0.039, 3 * math.cos(0.05), 3 * math.sin(-0.05), *[0.0] * 7)
     assert search.combine(lobe, 2, distance, angle, most) == patches
     if patches == 1:
         assert lobe[0].weight == 4.0

@@ -9,10 +9,11 @@ from scipy.interpolate import CubicSpline
 from contact import ContactError
 from contact.geometry import profile
 from contact.geometry.surfaces import Flat, Polygon, RailSurface, SurfacePair, Wave, WheelSurface
-from contact.geometry.surfaces.frame import Frame, PlacedRail, heights
-from contact.geometry.surfaces.sheet import SplineSheet
+from contact.geometry.surfaces.frame import Frame
 from contact.geometry.surfaces.spline import approximated, slopes
 from contact.geometry.wheelset import Irregularity, Pair, Pose, Velocity
+from contact.kernels.geometry.section import AWAY
+from examples.crossing.crossing import crossing
 
 R0 = 0.460
 WHEEL, RAIL = profile.s1002(), profile.rail_60e1()
@@ -25,6 +26,22 @@ def lifted(rate):
     """Return a rail that rises by `rate` along the track."""
     s = np.linspace(-0.1, 0.1, 9)
     return RailSurface(s, [np.stack((ARC.y, ARC.z - rate * at), axis=1) for at in s])
+
+
+def rail_heights(rail, frame, x, y, *, origin=(0.75, 0.0), station=0.0):
+    """Return the heights of a rail over a frame: its distance from a cylinder, plus the cylinder's height; NaN where absent.
+
+    The cylinder has the radius R0 and touches the height z = 0. Its height along the normal follows from Pythagoras.
+    """
+    pair = SurfacePair(CONE, rail, rail_origin=origin)
+    pair.place(Pose(), station=station)
+    distance = pair.distance(frame, x, y)
+    (x0, _, z0), (ahead, across, normal) = frame.origin, frame.axes
+    at_x = x0 + x * ahead[0] + y[:, None] * across[0]
+    at_z = z0 + x * ahead[2] + y[:, None] * across[2] + R0
+    # (at_x + n normal_x)² + (at_z + n normal_z)² = R0²
+    a, b, c = normal[0] ** 2 + normal[2] ** 2, at_x * normal[0] + at_z * normal[2], at_x**2 + at_z**2 - R0**2
+    return np.where(distance < AWAY, distance + (np.sqrt(b**2 - a * c) - b) / a, np.nan)
 
 
 # -- splines ----------------------------------------------------------------------------------------------------------
@@ -63,26 +80,26 @@ def test_control_points_at_equal_steps_are_weighted_1_4_1():
 # -- surfaces ---------------------------------------------------------------------------------------------------------
 
 
-def test_a_cubic_surface_along_u_is_reproduced_and_derivatives_agree_with_differences():
-    u, v = np.array([0.0, 0.2, 0.5, 0.9, 1.0]), np.arange(6.0)
-    z = (1.0 + u - 2.0 * u**3)[:, None] * np.ones(6)
-    sheet = SplineSheet(u, np.stack((np.broadcast_to(v, z.shape), z)), np.ones(z.shape, bool))
-    at, across = np.random.default_rng(4).uniform(0.05, 0.95, 50), np.random.default_rng(5).uniform(0.1, 4.9, 50)
-    found = sheet.at(at, across)
-    assert found.f[1] == pytest.approx(1.0 + at - 2.0 * at**3, abs=1e-13)
-    assert found.f[0] == pytest.approx(across, abs=1e-13)
-    assert found.along[1] == pytest.approx(1.0 - 6.0 * at**2, abs=1e-12)
-    step = 1e-6
-    ahead, right = sheet.at(at + step, across).f, sheet.at(at, across + step).f
-    assert (ahead - found.f) / step == pytest.approx(found.along, abs=1e-5)
-    assert (right - found.f) / step == pytest.approx(found.across, abs=1e-5)
+def test_a_cubic_along_the_track_is_reproduced():
+    """A tensor product of not-a-knot splines is exact for it, between slices too."""
+    u, y = np.array([-0.4, -0.3, -0.15, 0.3, 0.5]), np.linspace(-0.03, 0.03, 61)
+    rail = RailSurface(u, [np.stack((y, 0.2 * y**2 + 0.1 * s - 0.3 * s**3), axis=1) for s in u])
+    x, across = np.random.default_rng(4).uniform(-0.05, 0.05, 9), np.random.default_rng(5).uniform(-0.02, 0.02, 11)
+    x, across = np.sort(x), np.sort(across)
+    for station in (-0.3, -0.1, 0.1, 0.4):
+        frame = Frame.turned(np.array([0.0, 0.75, 0.0]), 0.0)
+        s = station + x
+        found = rail_heights(rail, frame, x, across, station=station)
+        assert found == pytest.approx(0.2 * across[:, None] ** 2 + 0.1 * s - 0.3 * s**3, abs=1e-9)
 
 
 def test_a_surface_is_constant_beyond_its_slices():
     rail = lifted(0.1)
     for end, beyond in ((-0.1, -0.5), (0.1, 3.0)):
         assert rail.curves(np.array([beyond])) == pytest.approx(rail.curves(np.array([end])), abs=1e-15)
-        assert rail.at(np.array([beyond]), np.array([7.3])).along == pytest.approx(0.0)
+    x, frame = np.linspace(-0.02, 0.02, 9), Frame.turned(np.array([0.0, 0.75, 0.0]), 0.0)
+    beyond = rail_heights(rail, frame, x, np.array([-1e-3, 0.0]), station=0.5)
+    assert beyond == pytest.approx(np.broadcast_to(beyond[:, :1], beyond.shape), abs=1e-12)
 
 
 def test_a_part_begins_at_the_first_slice_that_has_it_and_the_rest_is_there_before():
@@ -96,9 +113,8 @@ def test_a_part_begins_at_the_first_slice_that_has_it_and_the_rest_is_there_befo
     assert after.all()
     assert not before.all()
     assert before[-1]
-    placed = PlacedRail(rail, (0.0, 0.0), 0.0, Irregularity())
-    frame = Frame.about_x(np.zeros(3), 0.0)
-    z = heights(placed, frame, np.array([2.0, 2.99, 3.0, 3.01]), np.array([-0.02, 0.02]), deepest=False).z
+    frame, across = Frame.turned(np.array([0.0, 0.75, 0.0]), 0.0), np.array([-0.02, 0.02])
+    z = rail_heights(rail, frame, np.array([-0.1, -0.01, 0.0, 0.01]), across, station=3.0)
     assert np.isnan(z[0]).tolist() == [True, True, False, False]
     assert z[1] == pytest.approx(5.0 * 0.02**2, abs=1e-8)
 
@@ -108,24 +124,49 @@ def test_a_corner_at_a_feature_is_kept():
     roof = np.stack((y, 0.2 * np.abs(y)), axis=1)
     half = np.hypot(0.03, 0.2 * 0.03)
     sharp = RailSurface([0.0, 1.0], [roof, roof], features=[[0.0, half, 2.0 * half]] * 2, corners=[1])
-    frame, at = Frame.about_x(np.zeros(3), 0.0), np.array([-1e-4, 0.0, 1e-4])
-    placed = PlacedRail(sharp, (0.0, 0.0), 0.5, Irregularity())
-    assert heights(placed, frame, np.zeros(1), at, deepest=False).z[:, 0] == pytest.approx(0.2 * np.abs(at), abs=1e-12)
+    frame, at = Frame.turned(np.array([0.0, 0.75, 0.0]), 0.0), np.array([-1e-4, 0.0, 1e-4])
+    found = rail_heights(sharp, frame, np.zeros(1), at, station=0.5)
+    assert found[:, 0] == pytest.approx(0.2 * np.abs(at), abs=1e-12)
 
 
 def test_heights_of_a_ramp_are_exact_in_a_turned_and_in_a_tilted_frame():
     y = np.linspace(-0.03, 0.03, 61)
-    plane = [np.stack((y, 0.3 * y - 0.1 * s), axis=1) for s in (-0.1, 0.0, 0.1)]
-    placed = PlacedRail(RailSurface([-0.1, 0.0, 0.1], plane), (0.7, 0.1), 0.02, Irregularity())
-    normal = np.array([0.1, -0.3, 1.0])
-    origin = np.array([0.0, 0.7, 0.1 - 0.1 * 0.02])
+    plane = RailSurface([-0.1, 0.0, 0.1], [np.stack((y, 0.3 * y - 0.1 * s), axis=1) for s in (-0.1, 0.0, 0.1)])
+    origin, angle = np.array([0.0, 0.75, 0.1 - 0.1 * 0.02]), math.atan(0.3)
     x, across = np.linspace(-0.01, 0.01, 5), np.linspace(-0.01, 0.01, 7)
-    flat = heights(placed, Frame.along_normal(origin, normal), x, across, deepest=False)
-    assert flat.z == pytest.approx(0.0, abs=1e-12)
-    assert flat.normal[2] == pytest.approx(1.0, abs=1e-12)
-    turned = heights(placed, Frame.about_x(origin, math.atan(0.3)), x, across, deepest=False)
-    cosine = math.cos(math.atan(0.3))
-    assert turned.z == pytest.approx(np.broadcast_to(-0.1 * x * cosine, turned.z.shape), abs=1e-12)
+    options = {"origin": (0.75, 0.1), "station": 0.02}
+    along = Frame.turned(origin, angle, math.atan(0.1 * math.cos(angle)))
+    assert along.axes[2] == pytest.approx(np.array([0.1, -0.3, 1.0]) / math.sqrt(1.1), abs=1e-15)
+    assert rail_heights(plane, along, x, across, **options) == pytest.approx(0.0, abs=1e-11)
+    turned = rail_heights(plane, Frame.turned(origin, angle), x, across, **options)
+    assert turned == pytest.approx(np.broadcast_to(-0.1 * x * math.cos(angle), turned.shape), abs=1e-12)
+
+
+@pytest.mark.parametrize(("angle", "pitch"), [(0.0, 0.0), (-0.3, 0.0), (1.0, 0.0), (0.2, 0.1)])
+def test_the_height_of_a_cone_under_yaw_and_roll_is_exact(angle, pitch):
+    """A cone is a quadric, so its height over a plane is the root of a quadratic equation."""
+    conicity, yaw, roll = 0.2, 0.03, -0.02
+    pair = SurfacePair(profile.cone(conicity), RailSurface.constant(profile.rail_arc(0.3)), **UNDER)
+    pose = Pose(y=2e-3, z=1e-3, roll=roll, yaw=yaw)
+    pair.place(pose, rotation=0.4)
+    axle = np.array([-math.sin(yaw) * math.cos(roll), math.cos(yaw) * math.cos(roll), math.sin(roll)])
+    centre = np.array([0.0, pose.y, pose.z - R0])
+    frame = Frame.turned(np.array([1e-3, 0.751, 2e-4]), angle, pitch)
+    x, y = np.linspace(-8e-3, 8e-3, 7), np.linspace(-5e-3, 5e-3, 5)
+    # rail: a circular cylinder along x about (0.75, 0.3)
+    points = frame.origin[:, None, None] + frame.axes[0][:, None, None] * x + frame.axes[1][:, None, None] * y[:, None]
+    n, p = frame.axes[2], points - np.array([0.0, 0.75, 0.3])[:, None, None]
+    a, b, c = n[1] ** 2 + n[2] ** 2, n[1] * p[1] + n[2] * p[2], p[1] ** 2 + p[2] ** 2 - 0.3**2
+    rail = (-b - np.sqrt(b**2 - a * c)) / a
+    # wheel: |q|² - d² = (R0 - conicity (d - tape))², where d is the place along the axle
+    q = points - centre[:, None, None]
+    d, rate = np.tensordot(axle, q, 1), float(axle @ n)
+    r = R0 - conicity * (d - pair.tape)
+    a = 1.0 - rate**2 - (conicity * rate) ** 2
+    b = np.tensordot(n, q, 1) - d * rate + r * conicity * rate
+    c = (q**2).sum(axis=0) - d**2 - r**2
+    wheel = (-b + np.sqrt(b**2 - a * c)) / a
+    assert pair.distance(frame, x, y) == pytest.approx(rail - wheel, abs=1e-9)
 
 
 # -- deviations -------------------------------------------------------------------------------------------------------
@@ -202,6 +243,10 @@ def test_on_a_ramp_the_wheel_touches_ahead_or_behind_the_axle(rate):
     (patch,) = tilted.contacts(Pose(z=z + 5e-5), station=0.01)
     assert patch.frame.axes[2] == pytest.approx(np.array([rate, 0.0, 1.0]) / stretched, abs=1e-4)
     assert patch.approach == pytest.approx(5e-5 / stretched, rel=2e-3)
+    # the reference point lies on the rail, the wheel's deeper along the normal
+    assert patch.position[2] == pytest.approx(-rate * (0.01 + patch.position[0]), abs=1e-7)
+    deeper = np.array(patch.wheel_position) - patch.position
+    assert deeper == pytest.approx(patch.approach * patch.frame.axes[2], abs=0.05 * patch.approach)
 
 
 def test_a_steep_ramp_is_touched_beyond_the_first_reach():
@@ -216,7 +261,41 @@ def test_a_cylinder_with_a_chord_falls_and_turns_about_its_end(turned):
     half = math.asin(0.025 / R0)
     pair = SurfacePair(WheelSurface.constant(CONE, flat), ARC, **UNDER)
     z = pair.touch(Pose(), rotation=-1.0 + turned * half)
-    assert z == pytest.approx(R0 - R0 * math.cos(half * (1.0 - abs(turned))), abs=1.5e-6)
+    assert z == pytest.approx(R0 - R0 * math.cos(half * (1.0 - abs(turned))), abs=1e-7)
+
+
+@pytest.mark.parametrize("depth", [1e-6, 3e-6, 1e-5, 5e-5])
+@pytest.mark.parametrize("turned", [0.1, 0.37, 0.8])
+def test_the_narrow_overlap_at_the_end_of_a_chord_is_found(depth, turned):
+    """It may lie between the points of the first grids. The rail is flat across, so both bodies are known in closed form.
+
+    Before and behind the end the wheel rises as a circle and as the plane of the flat.
+    """
+    half = math.asin(0.015 / R0)
+    wheel = WheelSurface.constant(CONE, Flat(0.03, shape="chord"))
+    pair = SurfacePair(wheel, ARC, **UNDER)
+    (patch,) = pair.contacts(Pose(), rotation=turned * half, penetration=depth)
+    x = np.linspace(-1.0, 1.0, 200001) * 8.0 * math.sqrt(depth) - R0 * math.sin(half * (1.0 - turned))
+    plane = (R0 * math.cos(half) - x * math.sin(turned * half)) / math.cos(turned * half)
+    rim = np.minimum(np.sqrt(R0**2 - x**2), plane)
+    over = np.maximum(rim - rim.max() + depth, 0.0)
+    volume = float((4.0 / 3.0 * over * np.sqrt(2.0 * 0.3 * over)).sum() * (x[1] - x[0]))  # parabolas across
+    gap = patch.gap
+    found = float(np.maximum(patch.approach - gap.h, 0.0).sum()) * gap.dx * gap.dy
+    middle = float((x * over**2.5).sum() / (over**2.5).sum())  # weights are depth²
+    assert patch.approach == pytest.approx(depth, abs=0.02 * depth + 1e-7)
+    assert found == pytest.approx(volume, rel=0.03, abs=0.25 * volume * 1e-6 / depth)
+    assert patch.position[0] == pytest.approx(middle, abs=0.1 * np.ptp(x[over > 0.0]) + 1e-4)
+
+
+def test_patches_in_transition_have_shares_that_add_up():
+    """Wing and nose of a crossing, 57 mm apart, with the limit of distance moved there."""
+    pair = SurfacePair(WHEEL, crossing(), combine_distance=0.045, rows=20, columns=20, **UNDER)
+    wing, both, nose = pair.contacts(Pose(), station=0.158, penetration=1.5e-4)
+    assert wing.share == nose.share
+    assert 0.0 < wing.share < 1.0
+    assert wing.share + both.share == pytest.approx(1.0, abs=1e-12)
+    assert wing.position[1] > both.position[1] > nose.position[1]
 
 
 def test_a_polygon_touches_where_the_rigid_wheel_is_lowest():
@@ -243,7 +322,7 @@ def test_a_closed_wheel_continues_from_its_last_slice_to_the_first():
     closed = WheelSurface.from_deviations(theta, y, 1e-4 * np.sin(3.0 * theta)[:, None] + 0.0 * y)
     assert closed.sheet.period is not None
     u = np.linspace(0.9 * math.pi, 1.1 * math.pi, 11)
-    assert closed.at(u, np.full(11, 40.5)).f[1] == pytest.approx(1e-4 * np.sin(3.0 * u), abs=1e-8)
+    assert closed.curves(u)[1, :, 40] == pytest.approx(1e-4 * np.sin(3.0 * u), abs=1e-8)
     opened = WheelSurface.from_deviations(theta[:30], y, np.zeros((30, 61)))
     assert opened.sheet.period is None
 

@@ -91,6 +91,50 @@ def test_loads_are_carried_and_power_is_what_the_forces_do():
 
 
 @pytest.mark.slow
+@pytest.mark.parametrize("load", [300.0, 1e3])
+def test_a_light_wheel_stands_on_the_sharp_end_of_a_flat(load):
+    """The overlap is a few tenths of a millimetre long there, and the load is carried at every angle."""
+    wheel = WheelSurface.constant(WHEEL, Flat(0.06, R0, shape="chord"))
+    pair = HalfspacePair(SurfacePair(wheel, profile.rail_60e1(inclination=1 / 40), rows=20, columns=20))
+    for rotation in (0.004, 0.01, 0.02, 0.03, 0.04, 0.06):
+        found = pair.solve(Pose(), FREE, rotation=rotation, load=load, friction=0.0)
+        assert pytest.approx(load, rel=1e-3) == found.Q
+        assert found.status is Status.OK or found.status is Status.SATURATED
+
+
+@pytest.mark.slow
+def test_a_load_that_the_half_space_misses_is_not_called_solved():
+    """In the middle of a haversine flat, where another region of overlap begins, the force jumps with the height."""
+    wheel = WheelSurface.constant(WHEEL, Flat(0.06, R0))
+    pair = HalfspacePair(SurfacePair(wheel, profile.rail_60e1(inclination=1 / 40), rows=30, columns=30))
+    missed = pair.solve(Pose(), FREE, rotation=0.0, load=1e4, friction=0.0)
+    met = pair.solve(Pose(), FREE, rotation=0.02, load=1e4, friction=0.0)
+    assert abs(missed.Q / 1e4 - 1.0) > 1e-3
+    assert missed.status is Status.NOT_CONVERGED
+    assert pytest.approx(1e4, rel=1e-4) == met.Q
+    assert met.status is not Status.NOT_CONVERGED
+
+
+@pytest.mark.slow
+def test_in_a_transition_forces_are_the_mean_by_shares():
+    """A common plane for wing and nose, planes of their own, and the limit of distance between."""
+    options = {"rail_origin": (0.75, 0.0), "rows": 20, "columns": 20}
+    apart, between, joint = (
+        HalfspacePair(SurfacePair(WHEEL, crossing.crossing(), combine_distance=limit, **options)).solve(
+            Pose(), FREE, station=0.158, penetration=1e-4
+        )
+        for limit in (8e-3, 0.045, 1.0)
+    )
+    share = between.contacts[0].patch.share
+    assert [len(one.contacts) for one in (apart, between, joint)] == [2, 3, 1]
+    assert 0.2 < share < 0.8
+    assert between.force == pytest.approx(share * apart.force + (1.0 - share) * joint.force, rel=1e-3)
+    assert between.power_per_metre == pytest.approx(
+        share * apart.power_per_metre + (1.0 - share) * joint.power_per_metre, rel=1e-3
+    )
+
+
+@pytest.mark.slow
 def test_on_a_ramp_the_tilted_frame_pushes_back_along_the_track():
     """Without friction and with the frame along the normal, the force is normal to the ramp."""
     rate = 0.1
@@ -163,7 +207,7 @@ def test_constant_profiles_as_surfaces_give_the_solution_of_the_pair(pose, given
     assert found.z == pytest.approx(wanted.z, abs=6e-7 if "load" in given else 6e-8)
     assert found.force == pytest.approx(wanted.force, abs=2e-3 * wanted.Q)
     assert found.moment == pytest.approx(wanted.moment, abs=2e-3 * wanted.Q)
-    # a pressure peak between strips feels the number of samples: 41 on surfaces, 81 on profiles
+    # a pressure peak between strips feels where the samples lie
     assert found.max_pressure == pytest.approx(wanted.max_pressure, rel=2.5e-2)
     assert found.damage.T_gamma == pytest.approx(wanted.damage.T_gamma, rel=1e-2)
     for a, b in zip(found.contacts, wanted.contacts, strict=True):

@@ -27,11 +27,6 @@ def test_steady_curving_is_the_equilibrium():
     assert found.wheels["lateral"][1] == pytest.approx(13e3, rel=0.1)  # outer wheel of the leading axle
 
 
-def test_curving_needs_a_speed():
-    with pytest.raises(ContactError, match="has no speed"):
-        curving.over_radius(read("manchester"), PROFILES, (600.0,))
-
-
 def test_the_limit_cycle_of_a_wheelset_lasts_below_the_linear_critical_speed():
     """S1002 on 60E1: between the flanges the wheelset hunts on at speeds at which small motions already decay."""
 

@@ -5,15 +5,13 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numpy.typing import NDArray
 
 from contact import workspace
+from contact.arrays import Array
 from contact.errors import ContactError
 from contact.geometry.surfaces.surface import RailSurface, WheelSurface
 from contact.kernels import arrays
 from contact.kernels.geometry.regions import FARTHEST
-
-Array = NDArray[np.float64]
 
 _FIRST, _LEAST, _ERROR = 5e-3, 1e-6, 1e-10  # [rad] first and least interval of a wheel's table; [m] its error
 _WINDOW, _STEP = 0.5, 0.125e-3  # [m] table of a rail: reach to both sides of the station, and interval

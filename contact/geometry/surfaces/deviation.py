@@ -11,11 +11,9 @@ from dataclasses import dataclass
 from typing import Protocol
 
 import numpy as np
-from numpy.typing import NDArray
 
+from contact.arrays import Array
 from contact.errors import ContactError, require_integer, require_number
-
-Array = NDArray[np.float64]
 
 
 class Deviation(Protocol):

@@ -24,14 +24,14 @@ from pathlib import Path
 from typing import Any, Literal, NamedTuple, TypeVar
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from contact.arrays import Array
 from contact.errors import ContactError
 from contact.geometry.files import UNITS, lines_of
 from contact.geometry.formats import columns, simpack
 from contact.geometry.surfaces.surface import MOST_SLICES, RailSurface, WheelSurface
 
-Array = NDArray[np.float64]
 Rail = TypeVar("Rail", bound=RailSurface)
 Wheel = TypeVar("Wheel", bound=WheelSurface)
 

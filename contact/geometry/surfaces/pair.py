@@ -3,38 +3,45 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
-from dataclasses import dataclass, replace
-from typing import Any
+from dataclasses import dataclass
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from contact import workspace
+from contact.arrays import Array
 from contact.creepage import Creepage
 from contact.errors import ContactError, require_number
-from contact.geometry.posed import MAX_PENETRATION, Posed, Side
+from contact.geometry.posed import Posed, Side
 from contact.geometry.records import Irregularity, Pose, Velocity
 from contact.geometry.shape import Profile
 from contact.geometry.surfaces import compiled
-from contact.geometry.surfaces.frame import Frame, PlacedRail, PlacedWheel, heights
-from contact.geometry.surfaces.search import Lobe, Scene, combined, sample
+from contact.geometry.surfaces.frame import Frame
 from contact.geometry.surfaces.surface import RailSurface, WheelSurface
 from contact.geometry.wheelset import TAPE_FROM_FLANGE_BACK, place_of_rail
+from contact.given_force import rising_root
 from contact.halfspace.gap import Division, Gap
 from contact.halfspace.norm import norm
-from contact.kernels.geometry.search import axle
+from contact.kernels.enumerations import Height
+from contact.kernels.geometry.elements import fill_distance, find
+from contact.kernels.geometry.prepare import move
+from contact.kernels.geometry.section import AWAY
 from contact.kernels.geometry.settle import DEEPEST
-from contact.kernels.records import MAX_PATCHES, SLOWEST
+from contact.kernels.records import MAX_PATCHES
 from contact.material import STEEL, Material
 
-Array = NDArray[np.float64]
+Range = tuple[float, float, float, float]
 
 ROWS = COLUMNS = 60
 SAMPLES = 81  # of a separation; 41 miss the peaks of crossing noses
-_MIRROR = np.diag([1.0, -1.0, 1.0])
 REACHES = 1e-2, 0.3  # [m] least and largest reach from the axle
-_MOST_STEPS, _LOAD_TOLERANCE = 40, 1e-5
+#: Search under a load: most forces, their tolerance over the load, and [m] of the height below which the force jumps.
+_MOST, _LOAD_TOLERANCE, _SHORTEST = 40, 1e-5, 1e-12
+#: The overlap of a patch is measured on this many points along each side, at least twice, at most so many times. Where it
+#: reaches an edge of their range, this becomes longer by a share.
+_POINTS, _TWICE, _PASSES, _LONGER = 41, 2, 6, 0.4
+_ABSENT = 1e-3  # [m] by which elements without a surface lie above the highest other one
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -54,9 +61,13 @@ class SurfacePatch:
     angle : float
         Contact angle [rad]: that of the frame about x, or the lateral inclination of its normal.
     position, wheel_position : tuple of float
-        Reference point on the rail, and the point of the wheel opposite along the normal, (x, y, z) [m].
+        Reference point on the rail, and the point of the wheel deeper by `approach`, along the normal, (x, y, z) [m].
+    on_rail, on_wheel : tuple of float
+        As in `contact.geometry.records.Patch` [m].
     rolling_radius : float
         Distance of the wheel's point from the axle [m].
+    share : float
+        Weight of the patch [-], as in `contact.geometry.records.Patch`.
     """
 
     gap: Gap
@@ -66,20 +77,18 @@ class SurfacePatch:
     angle: float
     position: tuple[float, float, float]
     wheel_position: tuple[float, float, float]
+    on_rail: tuple[float, float]
+    on_wheel: tuple[float, float]
     rolling_radius: float
+    share: float
 
-    def mirrored(self) -> SurfacePatch:
-        """Return the patch of the mirror image."""
-        c, (x, y, z), (wx, wy, wz) = self.creepage, self.position, self.wheel_position
-        return replace(
-            self,
-            gap=Gap(self.gap.x, -self.gap.y[::-1], self.gap.h[::-1]),
-            frame=Frame(_MIRROR @ self.frame.origin, _MIRROR @ self.frame.axes @ _MIRROR),
-            creepage=Creepage(c.longitudinal, -c.lateral, -c.spin),
-            angle=-self.angle,
-            position=(x, -y, z),
-            wheel_position=(wx, -wy, wz),
-        )
+
+class _Elements(NamedTuple):
+    """The gap of a patch of the right side, its least value 0, the approach [m] and the frame."""
+
+    gap: Gap
+    approach: float
+    frame: Frame
 
 
 class SurfacePair(Posed):
@@ -96,10 +105,9 @@ class SurfacePair(Posed):
     rail_origin : (float, float), optional
         Place (y, z) of the origin of the rail's points in track coordinates of the right side [m]. Default: the place at which
         a rail with one profile has the gauge. Required for a rail that changes along the track.
-    combine_distance, combine_angle : float
-        Two regions of interpenetration are separate patches, each with its own frame and without influence on the other,
-        if they are further apart than the first limit [m] or their angles differ by more than the second [rad], as in
-        CONTACT with its D_SEP and A_SEP. Otherwise they share one plane.
+    combine_distance : float
+        Regions of interpenetration further apart than this [m] are separate patches, each with its own frame and without
+        influence on the other. Up to 5/4 of it they count in both ways, with shares, as in `contact.geometry.wheelset.Pair`.
     reach : float
         Distance before and behind the axle that is searched [m], 0.01 to 0.3. It is doubled, up to 0.3, as long as the bodies
         still come closer at its ends, as on a steep ramp.
@@ -131,7 +139,6 @@ class SurfacePair(Posed):
         gauge_point: float = 0.014,
         rail_origin: tuple[float, float] | None = None,
         combine_distance: float = 8e-3,
-        combine_angle: float = math.radians(90.0),
         reach: float = 0.06,
         tilted: bool = False,
         rows: int = ROWS,
@@ -156,7 +163,6 @@ class SurfacePair(Posed):
             raise ContactError(f"wheel = {wheel!r} and rail = {rail!r} are not a WheelSurface and a RailSurface")
         self.tape = 0.5 * require_number("flange_back", flange_back, 0.1, 3.0) + TAPE_FROM_FLANGE_BACK
         self.combine_distance = require_number("combine_distance", combine_distance, 0.0)
-        self.combine_angle = require_number("combine_angle", combine_angle, 0.0)
         self.reach = require_number("reach", reach, *REACHES)
         self.tilted = bool(tilted)
         both = spacing if spacing is None or isinstance(spacing, tuple) else (spacing, spacing)
@@ -173,30 +179,7 @@ class SurfacePair(Posed):
         motion.origin_y, motion.origin_z = self.rail_origin
         motion.reach, motion.tilted = self.reach, self.tilted
         self.space.case["G"], self.space.case["nu"] = material.shear_modulus, material.poisson_ratio
-        self.separations = self.space.separations
-        self.z = 0.0  #: pose.z of the last search [m]: as given, or as found
-
-    def scene(self, pose: Pose, station: float, rotation: float, irregularity: Irregularity | None = None) -> Scene:
-        """Return wheel and rail at a pose, at z = 0. Parameters as for `contacts`."""
-        require_number("station", station)
-        require_number("rotation", rotation)
-        pose, moved = self._right(pose), irregularity or Irregularity()
-        if self.side == "left":
-            moved = replace(moved, y=-moved.y, roll=-moved.roll, y_rate=-moved.y_rate, roll_rate=-moved.roll_rate)
-        wheel = PlacedWheel(self.wheel, self.nominal_radius, self.tape, replace(pose, z=0.0), rotation)
-        rail = PlacedRail(self.rail, self.rail_origin, station, moved)
-        reach, scene = self.reach, None
-        while True:
-            ends = wheel.nodes(np.array([-rotation]))[1], rail.nodes(station + np.linspace(-reach, reach, 5))[1]
-            low, high = max(float(np.nanmin(y)) for y in ends), min(float(np.nanmax(y)) for y in ends)
-            if high > low:
-                scene = Scene(wheel, rail, (-reach, reach, low, high))
-            if scene is None or not scene.reaches_out or reach >= REACHES[1]:
-                break
-            reach = min(2.0 * reach, REACHES[1])
-        if scene is None or not scene.overlaps:
-            raise self._apart(pose)
-        return scene
+        self.patches, self.separations = self.space.patches, self.space.separations
 
     def _apart(self, pose: Pose) -> ContactError:
         return ContactError(f"pose.y = {pose.y:g}: the {self.side} wheel does not lie above its rail")
@@ -211,9 +194,35 @@ class SurfacePair(Posed):
         """Fill the table of the rail's deviations around `station` [m], for a kernel that is called without `given`."""
         compiled.follow(self._made[1], self.rail, station)
 
+    @property
+    def z(self) -> float:
+        """pose.z of the last search [m]: as given, or as found for a load or a penetration."""
+        return float(self.space.motion[0].z)
+
+    def place(
+        self,
+        pose: Pose,
+        velocity: Velocity | None = None,
+        *,
+        station: float = 0.0,
+        rotation: float = 0.0,
+        irregularity: Irregularity | None = None,
+    ) -> None:
+        """Place wheel and rail for `settle`, `carried` and `found`. Parameters as for `contacts`."""
+        move(self.given(pose, velocity, irregularity, station=station, rotation=rotation), self.space.motion[0])
+
     def touch(self, pose: Pose, *, station: float = 0.0, rotation: float = 0.0) -> float:
         """Return z [m] at which the rigid wheel just touches the rail. Parameters as for `contacts`."""
-        return self.scene(pose, station, rotation).touch()
+        self.place(pose, station=station, rotation=rotation)
+        self._search(Height.PENETRATION, 0.0)
+        return self.z
+
+    def _search(self, mode: int, amount: float) -> int:
+        """Describe the patches at the pose of the last `place` and return their number."""
+        n = find(mode, amount, self.space)
+        motion = self.space.motion[0]
+        self.require_found(n, Pose(self._mirror * float(motion.y), float(motion.z)), None)
+        return int(n)
 
     def contacts(
         self,
@@ -243,118 +252,130 @@ class SurfacePair(Posed):
         ContactError
             For input outside its range, if the wheel does not lie above the rail, or if no z gives the load.
         """
-        scene = self.scene(pose, station, rotation, irregularity)
-        if load is None and penetration is None:
-            self.z = pose.z
-        elif load is not None and penetration is not None:
-            raise ContactError(f"load = {load} and penetration = {penetration} exclude each other")
-        elif penetration is not None:
-            self.z = scene.touch() + require_number("penetration", penetration, 0.0, MAX_PENETRATION)
-        else:
-            amount = require_number("load", load, 0.0)
-            self.z = self.settle(scene, amount, lambda z: self.carried(scene, z))
-        return self.patches(scene, self.z, velocity or Velocity())
+        mode, amount = self.prescribed(load, penetration)
+        self.place(pose, velocity, station=station, rotation=rotation, irregularity=irregularity)
+        if mode == Height.LOAD:
+            self.settle(amount)
+            mode = Height.GIVEN
+        return self.found(mode, amount)
 
-    def settle(self, scene: Scene, load: float, carried: Callable[[float], float]) -> float:
-        """Return z [m] at which `carried(z)`, a vertical force [N], equals `load`.
+    def settle(self, load: float) -> float:
+        """Set the height at which the pressures of the half space carry a vertical load [N], and return its relative error.
 
-        F^(2/3) is nearly linear in the penetration (Hertz). Its root is bracketed and found by the Illinois variant of
-        regula falsi, as for constant profiles (`contact.kernels.geometry.settle`). Where a surface ends, the force may jump
-        with z; then the result is the side of the jump that is nearer to the load.
+        F^(2/3) is nearly linear in the penetration (Hertz). Where a surface ends or has an edge, the force may jump with z.
+        Then the height is the best of those that were tried.
         """
-        touch = scene.touch()
         if load <= 0.0:
-            return touch
+            self._search(Height.PENETRATION, 0.0)
+            return 0.0
         target = load ** (2.0 / 3.0)
-        low, high, f_low, f_high, side = 0.0, math.inf, -target, 0.0, 0
-        p = 1e-4 * (load / 1e5) ** (2.0 / 3.0)
-        nearest, best = math.inf, p
-        for step in range(_MOST_STEPS):
-            force = carried(touch + p)
-            if abs(force - load) < nearest:
-                nearest, best = abs(force - load), p
-            if nearest <= _LOAD_TOLERANCE * load or high - low <= 1e-12:
-                return touch + best
-            f = max(force, 0.0) ** (2.0 / 3.0) - target
-            if f > 0.0:
-                f_low = 0.5 * f_low if side > 0 else f_low
-                high, f_high, side = p, f, 1
-            else:
-                f_high = 0.5 * f_high if side < 0 else f_high
-                low, f_low, side = p, f, -1
-            if high < math.inf:
-                p = low - f_low * (high - low) / (f_high - f_low) if step < 20 else 0.5 * (low + high)
-            else:
-                p = min(1.05 * p * target / (f + target), 3.0 * p) if f > -target else 3.0 * p
-                if p > DEEPEST:
-                    break
-        raise ContactError(f"load = {load:g}: no z was found at which the {self.side} wheel carries it on this rail")
+        tried: list[tuple[float, float]] = []
 
-    def carried(self, scene: Scene, z: float) -> float:
-        """Return the vertical force of the pressures of the half space at the height z [N]."""
-        wheel, total = self._lowered(scene, z), 0.0
-        for lobe, frame in self._lobes(scene, z):
-            sampled = sample(wheel, scene.rail, frame, lobe, self.division)
-            if sampled is not None:
-                gap, approach = sampled
-                p = norm(gap.h, gap.dx, gap.dy, self.material, approach=approach, tolerance=1e-4).p
-                total += float(p.sum()) * gap.dx * gap.dy * float(frame.axes[2, 2])
+        def residual(depth: float) -> float:
+            force = self.carried(Height.PENETRATION, depth)
+            tried.append((abs(force - load), self.z))
+            return 0.0 if tried[-1][0] <= _LOAD_TOLERANCE * load else force ** (2.0 / 3.0) - target
+
+        p = min(1e-4 * (load / 1e5) ** (2.0 / 3.0), 0.5 * DEEPEST)
+        if rising_root(residual, p, target / p, (0.0, DEEPEST), shortest=_SHORTEST, most=_MOST).beyond:
+            raise ContactError(
+                f"load = {load:g}: no z was found at which the {self.side} wheel carries it on this rail"
+            )
+        missed, self.space.motion[0].z = min(tried)
+        return missed / load
+
+    def carried(self, mode: int = Height.GIVEN, amount: float = 0.0) -> float:
+        """Return the vertical force of the pressures of the half space [N]. Parameters as for `found`."""
+        total = 0.0
+        for k in range(self._search(mode, amount)):
+            made = self._elements(k)
+            if made is not None:
+                gap = made.gap
+                p = norm(gap.h, gap.dx, gap.dy, self.material, approach=made.approach, tolerance=1e-4).p
+                share, down = float(self.patches[k].share), float(made.frame.axes[2, 2])
+                total += share * float(p.sum()) * gap.dx * gap.dy * down
         return total
 
-    def patches(self, scene: Scene, z: float, velocity: Velocity) -> tuple[SurfacePatch, ...]:
-        """Return the patches of a scene at the height z [m]."""
-        wheel = self._lowered(scene, z)
-        found = []
-        for lobe, frame in self._lobes(scene, z):
-            sampled = sample(wheel, scene.rail, frame, lobe, self.division)
-            if sampled is None:
-                continue
-            gap, approach = sampled
-            origin = np.zeros(1)
-            depth = float(heights(wheel, frame, origin, origin, deepest=True).z[0, 0])
-            point = frame.origin + frame.axes[2] * (depth if math.isfinite(depth) else 0.0)
-            body = wheel.axes.T @ (point - wheel.centre)
-            found.append(
-                SurfacePatch(
-                    gap=gap,
-                    approach=approach,
-                    frame=frame,
-                    creepage=self._creepage(wheel, scene.rail, velocity, frame, point),  # type: ignore[arg-type]
-                    angle=math.atan2(-frame.axes[2, 1], frame.axes[2, 2]),
-                    position=tuple(frame.origin.tolist()),
-                    wheel_position=tuple(point.tolist()),
-                    rolling_radius=math.hypot(body[0], body[2]),
-                )
-            )
-        return tuple(patch if self.side == "right" else patch.mirrored() for patch in found)
+    def found(self, mode: int = Height.GIVEN, amount: float = 0.0) -> tuple[SurfacePatch, ...]:
+        """Return the patches at the pose of the last `place`. `mode` and `amount` are those of `Posed.prescribed`."""
+        made = ((k, self._elements(k)) for k in range(self._search(mode, amount)))
+        return tuple(self._patch(k, one) for k, one in made if one is not None)
 
-    def _lobes(self, scene: Scene, z: float) -> list[tuple[Lobe, Frame]]:
-        lobes = combined(scene.lobes(z), self.combine_distance, self.combine_angle)
-        return [(lobe, scene.frame(lobe, self.tilted)) for lobe in lobes]
+    def _elements(self, k: int) -> _Elements | None:
+        """Return patch `k` of the last search on elements that cover its overlap; None without overlap."""
+        p = self.patches[k]
+        frame = Frame.of(p)
+        box = self._overlap(frame, (p.back, p.front, p.left, p.right))
+        if box is None:
+            return None
+        division = self.division
+        if division.spacing is None:
+            steps = _step(*box[:2], division.columns), _step(*box[2:], division.rows)
+            division = division._replace(spacing=steps)
+        centres = division.centres(box)
+        h = self.distance(frame, *centres)
+        present = h < AWAY
+        if not present.any() or not h[present].min() < 0.0:
+            return None
+        approach = -float(h[present].min())
+        return _Elements(Gap(*centres, np.where(present, h, h[present].max() + _ABSENT) + approach), approach, frame)
 
-    def _lowered(self, scene: Scene, z: float) -> PlacedWheel:
-        wheel = scene.wheel
-        assert isinstance(wheel, PlacedWheel)
-        return PlacedWheel(wheel.surface, wheel.radius, wheel.tape, replace(wheel.pose, z=z), wheel.rotation)
+    def _overlap(self, frame: Frame, box: Range) -> Range | None:
+        """Return the range of a frame that the overlap fills, about in the range `box`; None without overlap."""
+        for k in range(_PASSES):
+            x, y = np.linspace(*box[:2], _POINTS), np.linspace(*box[2:], _POINTS)
+            inside = self.distance(frame, x, y) < 0.0
+            if not inside.any():
+                return None
+            (back, front), (low, high) = _around(x, inside.max(axis=0)), _around(y, inside.max(axis=1))
+            whole = x[0] <= back and front <= x[-1] and y[0] <= low and high <= y[-1]
+            box = back, front, low, high
+            if whole and k + 1 >= _TWICE:
+                break
+        return box
 
-    def _right(self, pose: Pose) -> Pose:
-        return pose if self.side == "right" else replace(pose, y=-pose.y, roll=-pose.roll, yaw=-pose.yaw)
+    def distance(self, frame: Frame, x: Array, y: Array) -> Array:
+        """Return rail minus wheel along the normal of a frame of the right side, shape (ny, nx) [m].
 
-    def _creepage(
-        self, wheel: PlacedWheel, rail: PlacedRail, velocity: Velocity, frame: Frame, point: Array
-    ) -> Creepage:
-        """Return the creepage at a point of the wheel (as `contact.kernels.geometry.frame.creepages`, in any frame)."""
-        mirror = 1.0 if self.side == "right" else -1.0
-        pose, moved = wheel.pose, rail.moved
-        spin = -velocity.forward / self.nominal_radius if velocity.spin is None else velocity.spin
-        roll_rate = mirror * velocity.roll
-        turning = spin * np.array(axle(pose.roll, pose.yaw))
-        turning += (roll_rate * math.cos(pose.yaw), roll_rate * math.sin(pose.yaw), mirror * velocity.yaw)
-        moving = np.array([velocity.forward, mirror * velocity.y, velocity.z])
-        rail_turning = np.array([moved.roll_rate, 0.0, 0.0])
-        from_rail = point - np.array([0.0, *self.rail_origin]) - np.array([0.0, moved.y, moved.z])
-        rail_moving = np.array([0.0, moved.y_rate, moved.z_rate]) + np.cross(rail_turning, from_rail)
-        slip = frame.axes @ (moving + np.cross(turning, point - wheel.centre) - rail_moving)
-        speed = max(velocity.forward, SLOWEST)
-        spinning = float(frame.axes[2] @ (turning - rail_turning))
-        return Creepage(float(slip[0]) / speed, float(slip[1]) / speed, spinning / speed)
+        The wheel stands where the last search has left it. Where a body is absent, the distance is 1 m.
+        """
+        h = np.empty((y.size, x.size))
+        fill_distance(
+            tuple(frame.origin.tolist()), frame.turn, np.ascontiguousarray(x), np.ascontiguousarray(y), h, self.space
+        )
+        return h
+
+    def _patch(self, k: int, made: _Elements) -> SurfacePatch:
+        m, p, (gap, approach, frame) = self._mirror, self.patches[k], made
+        x, y, z = frame.origin.tolist()
+        return SurfacePatch(
+            gap=gap if m > 0.0 else Gap(gap.x, -gap.y[::-1], gap.h[::-1]),
+            approach=approach,
+            frame=frame if m > 0.0 else frame.mirrored,
+            creepage=Creepage(float(p.vx), m * float(p.vy), m * float(p.phi)),
+            angle=m * float(p.angle),
+            position=(x, m * y, z),
+            wheel_position=(float(p.x), m * float(p.point_y), float(p.point_z)),
+            on_rail=(float(p.rail_y), float(p.rail_z)),
+            on_wheel=(float(p.wheel_y), float(p.wheel_z)),
+            rolling_radius=float(p.radius),
+            share=float(p.share),
+        )
+
+
+def _around(at: Array, inside: NDArray[np.bool_]) -> tuple[float, float]:
+    """Return the range of positions `at` that are inside, with a step around it, or more where it reaches an end."""
+    first, last = np.flatnonzero(inside)[[0, -1]]
+    step, longer = float(at[1] - at[0]), _LONGER * float(at[-1] - at[0])
+    return (
+        float(at[first]) - (step if first > 0 else longer),
+        float(at[last]) + (step if last < at.size - 1 else longer),
+    )
+
+
+def _step(low: float, high: float, n: int) -> float:
+    """Return a size of elements [m] of which about `n` cover low … high: a power of 2^(1/4).
+
+    So the elements keep their places in the frame when the overlap grows a little, and forces do not jump.
+    """
+    return float(2.0 ** (0.25 * math.floor(4.0 * math.log2(max(high - low, 1e-7) / n))))

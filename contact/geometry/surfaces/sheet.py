@@ -7,23 +7,14 @@ are connected along u. A path may be absent on some slices, so the surface may b
 from __future__ import annotations
 
 import itertools
-from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
+from contact.arrays import Array
 from contact.geometry.surfaces.spline import slopes
 
-Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]
-
-
-class Points(NamedTuple):
-    """Points of a surface with their derivatives along both coordinates; row 0 is y, row 1 is z."""
-
-    f: Array
-    along: Array  # d/du
-    across: Array  # d/dv
 
 
 class SplineSheet:
@@ -72,19 +63,18 @@ class SplineSheet:
         """Number of longitudinal paths m; v is in 0 … m-1."""
         return int(self.active.shape[1])
 
-    def _interval(self, u: Array) -> tuple[NDArray[np.int64], Array, Array, Mask]:
-        """Return index, length and position in 0 … 1 of the interval that holds u, and whether u is within the slices."""
+    def _interval(self, u: Array) -> tuple[NDArray[np.int64], Array, Array]:
+        """Return index, length and position in 0 … 1 of the interval that holds u, or is nearest to it."""
         if self.period is not None:
             u = self.u[0] + np.mod(u - self.u[0], self.period)
-        inside = (u >= self.u[0]) & (u <= self.u[-1])
         u = np.clip(u, self.u[0], self.u[-1])
         i = np.clip(np.searchsorted(self.u, u, side="right") - 1, 0, self.u.size - 2)
         h = self.u[i + 1] - self.u[i]
-        return i, h, (u - self.u[i]) / h, inside
+        return i, h, (u - self.u[i]) / h
 
     def curves(self, u: Array) -> Array:
         """Return the nodes (y, z) of the cross-sections at `u`, shape (2, k, m) [m]; NaN where the surface is absent."""
-        i, h, t, _ = self._interval(u)
+        i, h, t = self._interval(u)
         b0, b1, b2, b3 = (b[:, None] for b in _basis(t))
         h = h[:, None]
         f = b0 * self._f[:, i] + b2 * self._f[:, i + 1] + h * (b1 * self._f_u[:, i] + b3 * self._f_u[:, i + 1])
@@ -93,42 +83,11 @@ class SplineSheet:
         f[:, ~there] = np.nan
         return np.asarray(f)
 
-    def at(self, u: Array, v: Array) -> Points:
-        """Return points and derivatives at `u` and `v`, arrays of equal shape (k,). Absent parts give no defined value."""
-        i, h, t, inside = self._interval(u)
-        j = np.clip(v.astype(np.int64), 0, self.paths - 2)
-        w = v - j
-        bu, du, bv, dv = _basis(t), _basis_rate(t), _basis(w), _basis_rate(w)
-
-        def row(k: NDArray[np.int64]) -> tuple[Array, Array, Array, Array]:
-            """Return f, f_v, f_u, f_uv of slice k at v."""
-            f0, f1, s0, s1 = self._f[:, k, j], self._f[:, k, j + 1], self._start[:, k, j], self._end[:, k, j]
-            g0, g1, r0, r1 = self._f_u[:, k, j], self._f_u[:, k, j + 1], self._start_u[:, k, j], self._end_u[:, k, j]
-            return (
-                bv[0] * f0 + bv[1] * s0 + bv[2] * f1 + bv[3] * s1,
-                dv[0] * f0 + dv[1] * s0 + dv[2] * f1 + dv[3] * s1,
-                bv[0] * g0 + bv[1] * r0 + bv[2] * g1 + bv[3] * r1,
-                dv[0] * g0 + dv[1] * r0 + dv[2] * g1 + dv[3] * r1,
-            )
-
-        a, a_v, a_u, a_uv = row(i)
-        b, b_v, b_u, b_uv = row(i + 1)
-        return Points(
-            bu[0] * a + bu[2] * b + h * (bu[1] * a_u + bu[3] * b_u),
-            np.where(inside, (du[0] * a + du[2] * b) / h + du[1] * a_u + du[3] * b_u, 0.0),
-            bu[0] * a_v + bu[2] * b_v + h * (bu[1] * a_uv + bu[3] * b_uv),
-        )
-
 
 def _basis(t: Array) -> tuple[Array, Array, Array, Array]:
     """Return the weights of f0, h·m0, f1 and h·m1 at t in 0 … 1 (`contact.kernels.cubic.basis`, for arrays)."""
     w = 1.0 - t
     return (1.0 + 2.0 * t) * w * w, t * w * w, t * t * (3.0 - 2.0 * t), -t * t * w
-
-
-def _basis_rate(t: Array) -> tuple[Array, Array, Array, Array]:
-    """Return the derivatives of `_basis`."""
-    return 6.0 * t * (t - 1.0), 1.0 + t * (3.0 * t - 4.0), 6.0 * t * (1.0 - t), t * (3.0 * t - 2.0)
 
 
 def _runs(mask: Mask) -> list[tuple[int, int]]:

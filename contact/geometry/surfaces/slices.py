@@ -6,14 +6,14 @@ import itertools
 from collections.abc import Sequence
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from contact.arrays import Array
 from contact.errors import ContactError
 from contact.geometry.shape import Profile
 from contact.geometry.surfaces.sheet import SplineSheet
 from contact.geometry.surfaces.spline import approximated, slopes
 
-Array = NDArray[np.float64]
 Slice = Profile | ArrayLike
 
 SPACING = 0.5e-3  # [m] between longitudinal paths, as in CONTACT

@@ -3,11 +3,9 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
+from contact.arrays import Array
 from contact.errors import ContactError
-
-Array = NDArray[np.float64]
 
 
 def slopes(u: Array, f: Array, period: float | None = None) -> Array:

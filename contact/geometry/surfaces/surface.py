@@ -8,15 +8,14 @@ from os import PathLike
 from typing import Any, Self
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from contact.arrays import Array
 from contact.errors import ContactError, require_number
 from contact.geometry.shape import Profile
 from contact.geometry.surfaces.deviation import Deviation
-from contact.geometry.surfaces.sheet import Points, SplineSheet
+from contact.geometry.surfaces.sheet import SplineSheet
 from contact.geometry.surfaces.slices import MOST_SLICES, SPACING, Slice, connect, positions
-
-Array = NDArray[np.float64]
 
 _FULL = 2.0 * math.pi
 _WIDEST = (
@@ -45,15 +44,6 @@ class _Surface:
         for deviation in self.deviations:
             f[1] += deviation.at(u)[0][:, None]
         return f
-
-    def at(self, u: Array, v: Array) -> Points:
-        """Return points and derivatives at `u` and `v`, arrays of equal shape (k,)."""
-        points = self.sheet.at(u, v)
-        for deviation in self.deviations:
-            value, slope = deviation.at(u)
-            points.f[1] += value
-            points.along[1] += slope
-        return points
 
     def __repr__(self) -> str:
         name = f"{self.name!r}, " if self.name else ""
@@ -230,10 +220,6 @@ class WheelSurface(_Surface):
     def curves(self, u: Array) -> Array:
         """Return the nodes (y, z) of the meridians at the angles `u`, shape (2, k, m) [m]."""
         return super().curves(self._turned(u))
-
-    def at(self, u: Array, v: Array) -> Points:
-        """Return points and derivatives at the angles `u` and the paths `v`, arrays of equal shape (k,)."""
-        return super().at(self._turned(u), v)
 
 
 def _require_kind(profile: object, kind: str) -> None:

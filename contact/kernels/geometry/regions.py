@@ -15,10 +15,16 @@ from contact.kernels.geometry.section import AWAY
 from contact.kernels.records import MAX_LOBES
 from contact.kernels.rows import Box, Cell
 
+Extent = tuple[int, int, int, int]
+
 FARTHEST = 0.3  # [m] before and behind the axle
 _COARSE = 4e-3  # [m] step of the coarse grid along x
 _SLACK = 80e-6  # [m] by which heights on the coarse grid may miss a lobe
 _DEPTH = 130e-6  # [m] depth for which rough grids are laid at first; one of usual loads
+#: A grid is laid anew over what it has found, at most so many times: while an overlap has fewer rows or columns than `_FEW`,
+#: and for first touch while the gap bends by more than `_BENT` [m] at its least point. Both happen at sharp edges.
+_ZOOMS, _FEW, _BENT = 4, 8, 4e-7
+_STEEP = 0.1  # slope with which the gap may fall between two points of a grid, at an edge
 
 
 @kernel
@@ -82,45 +88,57 @@ def scan(space: SurfaceSearch) -> bool:
 
 
 @kernel
-def _least_between(before: float, here: float, after: float) -> float:
-    """Return by how much the parabola through three values falls below the middle one, which is the least."""
+def _least_between(before: float, here: float, after: float) -> tuple[float, float]:
+    """Return by how much the parabola through three values falls below the middle one, the least, and their difference.
+
+    The difference is the second one, `before` - 2 `here` + `after`.
+    """
     bend = before - 2.0 * here + after
     if before >= AWAY or after >= AWAY or bend <= 0.0:
-        return 0.0
-    return (before - after) ** 2 / (8.0 * bend)
+        return 0.0, 0.0
+    return (before - after) ** 2 / (8.0 * bend), bend
 
 
 @kernel
-def least_gap(gap: Array) -> tuple[float, int, int]:
-    """Return the least value between the points of a grid, by parabolas along both directions, with its row and column."""
+def least_gap(gap: Array) -> tuple[float, int, int, float]:
+    """Return the least value between the points of a grid, by parabolas along both directions, its row and column.
+
+    The last number is the greatest second difference there.
+    """
     row, col = 0, 0
     for i in range(gap.shape[0]):
         for k in range(gap.shape[1]):
             if gap[i, k] < gap[row, col]:
                 row, col = i, k
     here = gap[row, col]
-    fall = 0.0
+    fall, bend, further, bent = 0.0, 0.0, 0.0, 0.0
     if 0 < row < gap.shape[0] - 1:
-        fall += _least_between(gap[row - 1, col], here, gap[row + 1, col])
+        fall, bend = _least_between(gap[row - 1, col], here, gap[row + 1, col])
     if 0 < col < gap.shape[1] - 1:
-        fall += _least_between(gap[row, col - 1], here, gap[row, col + 1])
-    return here - fall, row, col
+        further, bent = _least_between(gap[row, col - 1], here, gap[row, col + 1])
+    return here - (fall + further), row, col, max(bend, bent)
 
 
 @kernel
-def _cover(label: Array, box: Array, n_x: int, wanted: float, to: Array, n: tuple[int, int]) -> bool:
-    """Set the place of a grid of n rows and columns `to` cover a region of another grid with one cell around it.
+def _extent(label: Array, n_x: int, wanted: float) -> Extent:
+    """Return the first and last row and the first and last column of a region of a grid; with `wanted` = 0 of all regions.
 
-    With `wanted` = 0 all regions count. Return whether there is one.
+    Without one the last row is -1.
     """
     top, bottom, left, right = label.shape[0], -1, n_x, -1
     for i in range(label.shape[0]):
         for k in range(n_x):
             if label[i, k] == wanted if wanted > 0.0 else label[i, k] > 0.0:
                 top, bottom, left, right = min(top, i), max(bottom, i), min(left, k), max(right, k)
+    return top, bottom, left, right
+
+
+@kernel
+def _cover(extent: Extent, box: Array, to: Array, n: tuple[int, int]) -> None:
+    """Set the place of a grid of n rows and columns `to` cover a part of another grid with one cell around it."""
+    top, bottom, left, right = extent
     to[Box.X], to[Box.DX] = box[Box.X] + (left - 1) * box[Box.DX], (right - left + 2) * box[Box.DX] / (n[1] - 1)
     to[Box.Y], to[Box.DY] = box[Box.Y] + (top - 1) * box[Box.DY], (bottom - top + 2) * box[Box.DY] / (n[0] - 1)
-    return bottom >= 0
 
 
 @kernel
@@ -133,7 +151,7 @@ def lay_rough(level: float, space: SurfaceSearch) -> int:
     for k in range(n):
         cells, box = rough[layers * k : layers * (k + 1)], boxes[k + 1]
         size = cells.shape[1], cells.shape[2]
-        _cover(coarse[1], boxes[0], n_coarse, k + 1.0, box, size)
+        _cover(_extent(coarse[1], n_coarse, k + 1.0), boxes[0], box, size)
         box[Box.LABEL] = k + 1.0
         fill_grid(box, cells, size[1], space)
         _exclude(cells[Cell.LABEL], box, n_coarse, space)
@@ -142,23 +160,48 @@ def lay_rough(level: float, space: SurfaceSearch) -> int:
 
 
 @kernel
+def _below(cells: Array, box: Array, level: float, space: SurfaceSearch) -> Extent:
+    """Return the extent of the part of a grid in which the gap is below `level` [m], without excluded cells.
+
+    A part that may lie between the points counts as the point with the least gap.
+    """
+    gap, label = cells[Cell.GAP], cells[Cell.LABEL]
+    label_regions(gap, label, gap.shape[1], level, space.stack)
+    found = _extent(label, gap.shape[1], 0.0)
+    if found[1] >= 0:
+        return found
+    least, row, col = level + _STEEP * (box[Box.DX] + box[Box.DY]), -1, -1
+    for i in range(gap.shape[0]):
+        for k in range(gap.shape[1]):
+            if label[i, k] >= 0.0 and gap[i, k] < least:
+                least, row, col = gap[i, k], i, k
+    return row, row, col, col
+
+
+@kernel
 def lay_fine(level: float, space: SurfaceSearch) -> None:
-    """Lay a fine grid over the part of every rough one in which the gap is below `level` [m]. An absent one has the label 0."""
+    """Lay a fine grid over the part of every rough one in which the gap is below `level` [m]. An absent one has the label 0.
+
+    A part with few rows or columns even there, such as the overlap at the sharp end of a flat, gets a finer one.
+    """
     layers, boxes = len(Cell), space.boxes
     if level > boxes[0, Box.ROUGH]:
         lay_rough(level, space)
     n, most = int(boxes[0, Box.GRIDS]), space.fine.shape[0] // layers
     for k in range(n):
-        rough, cells = space.rough[layers * k : layers * (k + 1)], space.fine[layers * k : layers * (k + 1)]
-        box, size = boxes[most + 1 + k], (cells.shape[1], cells.shape[2])
-        label_regions(rough[Cell.GAP], rough[Cell.LABEL], size[1], level, space.stack)
-        box[Box.LABEL] = 0.0
-        if _cover(rough[Cell.LABEL], boxes[k + 1], size[1], 0.0, box, size):
-            box[Box.LABEL] = boxes[k + 1, Box.LABEL]
-            ahead = box[Box.X] + (size[1] - 1) * box[Box.DX]
-            box[Box.X], box[Box.DX] = aligned(box[Box.X], ahead, size[1], space.motion[0].station, space.rail)
-            fill_grid(box, cells, size[1], space)
+        cells, box = space.fine[layers * k : layers * (k + 1)], boxes[most + 1 + k]
+        n_x = cells.shape[2]
+        part = _below(space.rough[layers * k : layers * (k + 1)], boxes[k + 1], level, space)
+        box[Box.LABEL] = boxes[k + 1, Box.LABEL] if part[1] >= 0 else 0.0
+        for zoom in range(_ZOOMS):
+            if part[1] < 0 or (zoom > 0 and min(part[1] - part[0], part[3] - part[2]) + 1 >= _FEW):
+                break
+            _cover(part, box if zoom > 0 else boxes[k + 1], box, (cells.shape[1], n_x))
+            ahead = box[Box.X] + (n_x - 1) * box[Box.DX]
+            box[Box.X], box[Box.DX] = aligned(box[Box.X], ahead, n_x, space.motion[0].station, space.rail)
+            fill_grid(box, cells, n_x, space)
             _exclude(cells[Cell.LABEL], box, int(boxes[0, Box.COLUMNS]), space)
+            part = _below(cells, box, level, space)
     boxes[0, Box.LAID] = level
 
 
@@ -179,7 +222,7 @@ def _exclude(label: Array, box: Array, n_coarse: int, space: SurfaceSearch) -> N
 def touch(space: SurfaceSearch) -> float:
     """Return the smallest vertical gap at pose.z = 0 [m].
 
-    The surroundings of the least point of every rough grid are divided once more.
+    The surroundings of the least point of every rough grid are divided once more, at an edge several times.
     """
     layers, boxes = len(Cell), space.boxes
     n, most = lay_rough(boxes[0, Box.LEAST] + _DEPTH, space), space.fine.shape[0] // layers
@@ -187,20 +230,17 @@ def touch(space: SurfaceSearch) -> float:
     for k in range(n):
         lowest = min(lowest, boxes[k + 1, Box.LEAST])
     for k in range(n):
-        place_, box, cells = boxes[k + 1], boxes[most + 1 + k], space.fine[layers * k : layers * (k + 1)]
-        least, row, col = least_gap(space.rough[layers * k])
+        box, cells = boxes[most + 1 + k], space.fine[layers * k : layers * (k + 1)]
+        least, row, col, _ = least_gap(space.rough[layers * k])
         if least > lowest + _SLACK:
             continue
-        box[Box.X], box[Box.DX] = (
-            place_[Box.X] + (col - 1) * place_[Box.DX],
-            2.0 * place_[Box.DX] / (cells.shape[2] - 1),
-        )
-        box[Box.Y], box[Box.DY] = (
-            place_[Box.Y] + (row - 1) * place_[Box.DY],
-            2.0 * place_[Box.DY] / (cells.shape[1] - 1),
-        )
-        fill_grid(box, cells, cells.shape[2], space)
-        lowest = min(lowest, least_gap(cells[Cell.GAP])[0])
+        for zoom in range(_ZOOMS):
+            _cover((row, row, col, col), box if zoom > 0 else boxes[k + 1], box, (cells.shape[1], cells.shape[2]))
+            fill_grid(box, cells, cells.shape[2], space)
+            least, row, col, bend = least_gap(cells[Cell.GAP])
+            if bend <= _BENT:
+                break
+        lowest = min(lowest, least)
     return lowest
 
 
@@ -215,6 +255,7 @@ def _measure(cells: Array, box: Array, wanted: float, z: float, lobe: Record) ->
     lobe.cosine, lobe.sine, lobe.slant, lobe.tie = 0.0, 0.0, 0.0, 0.0
     lobe.low, lobe.high, lobe.x_low, lobe.x_high = math.inf, -math.inf, math.inf, -math.inf
     lobe.low_z, lobe.high_z = 0.0, 0.0
+    lobe.step_x, lobe.step_y = box[Box.DX], box[Box.DY]
     area = box[Box.DX] * box[Box.DY]
     for i in range(cells.shape[1]):
         y = box[Box.Y] + i * box[Box.DY]

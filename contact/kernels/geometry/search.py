@@ -183,6 +183,7 @@ def lobes(line: Matrix, start: int, end: int, z: float, lobe: Lobes) -> int:
             k += 1
             lobe[k].weight, lobe[k].moment, lobe[k].cosine, lobe[k].sine = 0.0, 0.0, 0.0, 0.0
             lobe[k].x_low, lobe[k].x_high, lobe[k].moment_x, lobe[k].slant = 0.0, 0.0, 0.0, 0.0
+            lobe[k].step_x, lobe[k].step_y = 0.0, 0.0
             lobe[k].low = line[Curve.Y, j] + t0 * h
             lobe[k].low_z = at(line, j, lobe[k].low)[0] + z
         _add_moments(line, j, z, t0, t1, lobe, k)
@@ -247,6 +248,7 @@ def join(lobe: Record, patch: Record) -> None:
         patch.high, patch.high_z = lobe.high, lobe.high_z
     patch.low = min(patch.low, lobe.low)
     patch.x_low, patch.x_high = min(patch.x_low, lobe.x_low), max(patch.x_high, lobe.x_high)
+    patch.step_x, patch.step_y = max(patch.step_x, lobe.step_x), max(patch.step_y, lobe.step_y)
     patch.moment_x += lobe.moment_x
     patch.slant += lobe.slant
     patch.weight += lobe.weight

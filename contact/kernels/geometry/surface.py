@@ -110,18 +110,17 @@ def _positions(motion: Record, frame: Frame, depth: float, patch: Record) -> Non
 
     The creepages, and the forces, are those at the depth `patch.approach`, as in `frame.positions`.
     """
-    patch.x, patch.y, patch.z = frame[0] + depth * frame[9], frame[1], frame[2]
+    patch.x, patch.y, patch.z = frame[0] + patch.approach * frame[9], frame[1], frame[2]
     cos_roll, sin_roll = math.cos(motion.rail_roll), math.sin(motion.rail_roll)
     rail_y, rail_z = frame[1] - motion.rail_y, frame[2] - motion.rail_z
     patch.rail_y = cos_roll * rail_y + sin_roll * rail_z
     patch.rail_z = cos_roll * rail_z - sin_roll * rail_y
-    d, r = _on_wheel(motion, patch.x, frame[1] + depth * frame[10], frame[2] + depth * frame[11])
+    d, r = _on_wheel(motion, frame[0] + depth * frame[9], frame[1] + depth * frame[10], frame[2] + depth * frame[11])
     patch.wheel_y, patch.wheel_z = d - motion.tape, r - motion.radius
-    depth = patch.approach
-    x, y, z = frame[0] + depth * frame[9], frame[1] + depth * frame[10], frame[2] + depth * frame[11]
+    y, z = frame[1] + patch.approach * frame[10], frame[2] + patch.approach * frame[11]
     patch.point_y, patch.point_z = y, z
-    _, patch.radius = _on_wheel(motion, x, y, z)
-    slip(motion, frame[3:], x, y, z, patch)
+    _, patch.radius = _on_wheel(motion, patch.x, y, z)
+    slip(motion, frame[3:], patch.x, y, z, patch)
 
 
 @kernel
@@ -162,6 +161,8 @@ def _describe(z: float, lobe: Record, neighbours: tuple[float, float], k: int, s
     if not least < 0.0:
         return False
     patch.angle, patch.pitch, patch.low, patch.high, patch.load = angle, pitch, low, high, 0.0
+    patch.back, patch.front = back - lobe.step_x, front + lobe.step_x
+    patch.left, patch.right = low - lobe.step_y, high + lobe.step_y
     patch.approach = -least
     for i in range(space.h.shape[0]):
         for j in range(space.h.shape[1]):
