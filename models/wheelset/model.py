@@ -7,6 +7,7 @@ import math
 import numpy as np
 
 from contact.arrays import Array
+from contact.core import pack
 from contact.errors import ContactError, require_number
 from contact.geometry.wheelset import Pair
 from contact.kernels.records import GIVEN
@@ -61,8 +62,9 @@ class WheelsetModel:
             right=right.space,
             left=left.space,
         )
+        self._packed = pack(motion.Wheelset, self._wheelset)  # its words do not change
         self._require(
-            motion.begin(self._wheelset, p.lateral, p.yaw, p.lateral_velocity, p.yaw_rate, p.approach), self._memory
+            motion.begin(self._packed, p.lateral, p.yaw, p.lateral_velocity, p.yaw_rate, p.approach), self._memory
         )
 
     # inputs
@@ -96,12 +98,12 @@ class WheelsetModel:
         """
         require_number("h", h, 0.0, open_minimum=True)
         before = self._memory.copy()
-        self._require(motion.step(self._wheelset, h, self.parameters.substeps), before)
+        self._require(motion.step(self._packed, h, self.parameters.substeps), before)
 
     def rates(self) -> Array:
         """Return the time derivatives of (lateral, yaw, lateral_velocity, yaw_rate, spin) under the present forces."""
-        motion.balance(self._wheelset)
-        motion.change(self._wheelset)
+        motion.balance(self._packed)
+        motion.change(self._packed)
         return self._wheelset.rates.copy()
 
     def _require(self, failure: int, before: Array) -> None:
@@ -136,7 +138,7 @@ class WheelsetModel:
     @property
     def mechanical_energy(self) -> float:
         """Kinetic energy without that of V, energy of the springs, and potential energy of the weight [J] (10)."""
-        return motion.mechanical_energy(self._wheelset)
+        return motion.mechanical_energy(self._packed)
 
     def save(self) -> bytes:
         """Return the whole state, including held inputs."""
