@@ -1,6 +1,6 @@
 """Compile the kernels to WebAssembly: ``python -m explorer.emit FOLDER`` writes kernels.o and data.o.
 
-The module of all kernels is that of the libraries (`fmu_src.native.systems`). LLVM compiles what the page calls, and the objects
+The module of all kernels is that of the libraries (`fmu_src.native.systems`). LLVM compiles what the page calls. The objects
 are kept beside those of the other systems.
 """
 
