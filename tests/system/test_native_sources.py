@@ -4,7 +4,6 @@ import os
 import shutil
 import subprocess
 import sys
-from functools import cache
 from pathlib import Path
 
 import fmpy
@@ -25,15 +24,14 @@ NAMES = ("EllipticContact", "WheelRailContact", "WheelRailPair", "Wheelset", *VE
 
 
 @pytest.fixture(scope="module")
-def unzipped(request, native, tmp_path_factory):
-    """Return a function that unzips an FMU once and returns its folder."""
+def unzipped(request, native, unzipped):
+    """Return a function that gives the folder of an FMU by its name."""
 
-    @cache
-    def make(name: str) -> Path:
+    def folder(name: str) -> Path:
         place = request.getfixturevalue("native_vehicles") if name in VEHICLES else native.parent
-        return Path(fmpy.extract(str(place / f"{name}.fmu"), str(tmp_path_factory.mktemp(name))))
+        return unzipped(place / f"{name}.fmu")
 
-    return make
+    return folder
 
 
 def _listed(folder: Path) -> list[Path]:
