@@ -1,16 +1,20 @@
 """Compile the kernels to WebAssembly: ``python -m explorer.emit FOLDER`` writes kernels.o and data.o.
 
-The module of all kernels is that of the libraries (`fmu_src.native.systems`). LLVM compiles what the page calls.
+The module of all kernels is that of the libraries (`fmu_src.native.systems`). LLVM compiles what the page calls. The objects
+are kept beside those of the other systems.
 """
 
 from __future__ import annotations
 
+import shutil
 import sys
+import tempfile
 from pathlib import Path
 from typing import Any
 
 from llvmlite import binding as llvm
 
+from contact.core import library
 from fmu_src.native import c_tables, kinds, systems
 from fmu_src.native.emit import data_as_ir, refuse_the_rest
 from fmu_src.native.objects import only
@@ -33,9 +37,18 @@ def _object(module: Any) -> bytes:
 
 def main() -> None:
     """Write kernels.o and data.o into the folder that the command line names."""
+    kept = systems.kernels() / f"wasm32-{systems.digest(Path(__file__))}"
+    with library.locked(kept):
+        if not kept.is_dir():
+            with tempfile.TemporaryDirectory(dir=kept.parent) as made:
+                _compile(Path(made))
+                shutil.copytree(made, kept)
+    shutil.copytree(kept, sys.argv[1], dirs_exist_ok=True)
+
+
+def _compile(folder: Path) -> None:
     llvm.initialize_all_targets()
     llvm.initialize_all_asmprinters()
-    folder = Path(sys.argv[1])
     kernels = llvm.parse_bitcode((systems.kernels() / "kernels.bc").read_bytes())
     (folder / "kernels.o").write_bytes(_object(only(kernels, kinds.names("page"))))
     (folder / "data.o").write_bytes(_object(llvm.parse_assembly(data_as_ir(c_tables.data()))))

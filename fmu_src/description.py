@@ -178,8 +178,9 @@ def _structure(root: Element, table: Table, index: Mapping[int, int], follows: b
     ):
         if rows:
             element = SubElement(structure, section)
+            names = {known.name for known in knowns}
             for row in rows:
-                known = [r for known in table.knowns(row) if known in knowns for r in table.references(known.name)]
+                known = [r for of in table.knowns(row) if of.name in names for r in table.references(of.name)]
                 dependencies = " ".join(str(index[reference]) for reference in known)
                 for reference in table.references(row.name):
                     SubElement(element, "Unknown", index=str(index[reference]), dependencies=dependencies)

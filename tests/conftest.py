@@ -31,6 +31,12 @@ def ellipse() -> contact.Separation:
     return contact.Separation.hertzian(1.0, 2.0)
 
 
+@pytest.fixture
+def undrawn(monkeypatch) -> None:
+    """Leave pictures out of pages, for tests of their text: each is drawn twice, .7 s."""
+    monkeypatch.setattr("contact.study.page._data", lambda figure: "")
+
+
 @pytest.fixture(scope="session")
 def once(tmp_path_factory) -> Callable[[str], Path]:
     """Return a function that builds one of `BUILDS` once for all workers and returns its path.

@@ -82,7 +82,7 @@ def folder(systems: Sequence[str] = USUAL, say: Callable[[str], None] = print) -
             )
         return INSTALLED
     compiled = kernels(say)
-    made = compiled / f"linked-{_hash(*WRAPPER, *C_SOURCES, *INCLUDE.iterdir(), *_HERE.glob('l*.py'))}"
+    made = compiled / f"linked-{digest(*WRAPPER, *C_SOURCES, *INCLUDE.iterdir(), *_HERE.glob('l*.py'))}"
 
     def missing() -> list[str]:
         return [system for system in systems if not (made / system / SYSTEMS[system]).is_file()]
@@ -101,14 +101,15 @@ def kernels(say: Callable[[str], None] = print) -> Path:
     parts = [path for name in (".", "native", "tables") for path in (_HERE.parent / name).glob("*.py")]
     parts = [path for path in parts if path.stem not in _WITHOUT]
     models = (_ROOT / "models").rglob("*.py")
-    content = _hash(*parts, *models, *(_ROOT / "explorer").glob("patch.py"))
+    content = digest(*parts, *models, *(_ROOT / "explorer").glob("patch.py"))
     made = library.cache_folder() / f"{library.PREFIX}{library.fingerprint()}-systems-{content}"
     if not made.is_dir():
         say("compiling the kernels for all systems, some minutes the first time")
     return library.build(made, "--systems")
 
 
-def _hash(*paths: Path) -> str:
+def digest(*paths: Path) -> str:
+    """Return a hash of the content of files of the checkout."""
     content = hashlib.sha256()
     for path in sorted(paths):
         content.update(path.relative_to(_ROOT).as_posix().encode() + b"\0" + path.read_bytes())

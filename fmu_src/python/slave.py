@@ -48,6 +48,16 @@ _CALLS: tuple[tuple[Kind, ...], ...] = ((Kind.REAL,), (Kind.INTEGER, Kind.ENUMER
 _REAL, _INTEGER, _NONE = _CALLS
 
 
+#: Identity of a table → the table, and the guid of its description, which takes .3 s to write.
+_GUIDS: dict[int, tuple[Table, str]] = {}
+
+
+def _guid(table: Table) -> str:
+    if id(table) not in _GUIDS:
+        _GUIDS[id(table)] = table, model_description(table, INTERFACES)[0]
+    return _GUIDS[id(table)][1]
+
+
 class Phase(StrEnum):
     """State of the instance in FMI's state machine."""
 
@@ -111,7 +121,7 @@ class TableSlave(Fmi2Slave):
             # pythonfmu adds this entry for every instance and never removes it. The script is already imported.
             sys.path.remove(self.resources)
         release_once(self.resources)
-        if guid != model_description(table, INTERFACES)[0]:
+        if guid != _guid(table):
             reason = (
                 f"this FMU {table.name} was built with another version of wheelrail-contact than the installed "
                 f"{__version__}: install that version, or build the FMU anew"

@@ -1,14 +1,18 @@
 """Compile the C hosts in the folder `host` for a platform and run them with a native FMU."""
 
+import hashlib
 import os
+import shutil
 import subprocess
 from collections.abc import Iterable, Mapping, Sequence
+from importlib.metadata import version
 from pathlib import Path
 from urllib.parse import unquote, urlsplit
 
 import fmpy
 import numpy as np
 
+from contact.core import library
 from contact.kernels.records import MAX_PATCHES
 from contact.solver import N_ELEMENTS, N_STRIPS
 from fmu_src.catalogue import models, vehicles
@@ -84,9 +88,9 @@ class Host:
     ) -> None:
         system, code = PLATFORMS[platform]
         self.compiler = list(compile_by) or compiler(system)
-        library, program = SUFFIX[system]
+        suffix, program = SUFFIX[system]
         self.guid = fmpy.read_model_description(str(unzipped)).guid
-        self.library = unzipped / "binaries" / platform / f"{name}.{library}"
+        self.library = unzipped / "binaries" / platform / f"{name}.{suffix}"
         self.resources = resources_of(unzipped, system)
         every = models(POINTS, accumulation=True) if name in ROLES else (*models(POINTS), *vehicles(SCENARIO))
         (model,) = (model for model in every if model.table.name == name)
@@ -159,13 +163,32 @@ def compile_program(command: Sequence[str], platform: str, sources: Sequence[Pat
     run(*command, *made, "-o", program, *WITHOUT_MINGW, "-lapi-ms-win-crt-time-l1-1-0", "-Wl,--entry,mainCRTStartup")
 
 
+def compile_once(by: Sequence[str], words: Sequence[object], sources: Path, made: Path) -> None:
+    """Make `made` of the C files in `sources` by a compiler, or copy what it has made of the same ones before.
+
+    It is kept beside the kernels, in a file whose name is a hash of compiler, words and files: kernels in C take a minute.
+    """
+    tool = version("ziglang").encode() + subprocess.run([by[0], "--version"], capture_output=True).stdout
+    content = hashlib.sha256(tool + " ".join(map(str, (*by, *words))).replace(str(sources), "").encode())
+    for path in sorted(sources.iterdir()):
+        content.update(f"{path.name}\0".encode() + path.read_bytes())
+    kept = systems.kernels() / f"of-c-{content.hexdigest()[:16]}"
+    with library.locked(kept):
+        if not kept.is_file():
+            run(*by, *words, "-o", made)
+            shutil.copy(made, kept.with_suffix(".part")).rename(kept)
+    shutil.copy(kept, made)
+
+
 def sanitized(platform: str, folder: Path, unzipped: Path, name: str = NAME) -> Host:
     """Return a host for Linux, and the FMU compiled from its sources, kernels included, both with sanitizers."""
-    host = Host(platform, folder, unzipped, name, SANITIZED)
+    # two instances for each thread: with sanitizers 64 of them take half a minute
+    host = Host(platform, folder, unzipped, name, (*SANITIZED, "-DN_INSTANCES=16"))
     host.library = folder / "sanitized.so"
     flags = ("-std=c11", "-O0", "-ffp-contract=off", "-w", "-fPIC", "-shared", f"-I{unzipped / 'sources'}")
     # the sources write all names with that of the FMU, those of FMI only if a host asks for it
-    run(*SANITIZED, *flags, *sorted((unzipped / "sources").glob("*.c")), "-o", host.library, "-lm")
+    sources = unzipped / "sources"
+    compile_once(SANITIZED, (*flags, *sorted(sources.glob("*.c")), "-lm"), sources, host.library)
     return host
 
 

@@ -58,6 +58,7 @@ def test_a_run_with_elastic_pressures_and_archards_law_tells_its_seizure(tmp_pat
     assert shares == [0.0, 1.0]
 
 
+@pytest.mark.usefixtures("undrawn")
 def test_a_run_that_is_shorter_than_its_curve_says_so(tmp_path):
     folder = written(tmp_path).parent
     straight, curve = (VehicleRun(scenario.read(folder / f"{name}.toml")) for name in ("straight", "curve"))
@@ -86,6 +87,7 @@ def lossy(tmp_path_factory) -> VehicleRun:
     return run
 
 
+@pytest.mark.usefixtures("undrawn")
 def test_result_and_report_say_that_the_energy_does_not_close(lossy):
     stored = result.dataset(lossy).attrs
     assert abs(stored["trust_residual"]) > 0.02

@@ -250,6 +250,7 @@ def test_page_and_result_have_all_wheels_and_rails(life):
     assert stored["nonlinearity"].shape == (len(life.rows), 1)
 
 
+@pytest.mark.usefixtures("undrawn")
 def test_an_axle_that_does_not_oscillate_about_the_centre_has_no_conicity(tmp_path):
     """A left wheel that is 9 mm smaller pushes the wheelset far to one side. The report says none, not nan."""
     life = Life(plan(tmp_path))

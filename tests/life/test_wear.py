@@ -210,6 +210,7 @@ def test_command_writes_result_and_page_and_goes_on_from_its_checkpoint(plan, tm
     assert "<h1>short</h1>" in (tmp_path / "out" / "report.html").read_text(encoding="utf-8")
 
 
+@pytest.mark.usefixtures("undrawn")
 def test_page_of_an_unworn_wheel_has_no_trend(life):
     page = wear_report.page_of(Life(life.plan))
     assert page.count("<picture>") == 1

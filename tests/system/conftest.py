@@ -1,8 +1,9 @@
 """FMUs as a user gets them: built by the command and driven by fmpy."""
 
 import os
+import re
 import shutil
-from functools import cache
+from functools import cache, partial
 from pathlib import Path
 
 import fmpy
@@ -10,12 +11,29 @@ import pytest
 from contact_case import NAME
 from fmu_instance import Instance
 from fmu_instance_fmi3 import Instance3
+from lark import Lark
 from pair_case import NAME as PAIR
 
 from reference.native import Host
 
 ROOT = Path(__file__).parents[2]
 VEHICLES = ("Vehicle", "OpenVehicle")
+
+
+@pytest.fixture(scope="session", autouse=True)
+def _one_name_of_every_kind():
+    """Let fmpy's validation parse one name of those that differ in numbers only, which its grammar treats alike: 8 ms each."""
+    parse, legal = Lark.parse, set()
+
+    def once(parser: Lark, name: str) -> None:
+        kind = re.sub(r"\d+", "1", name)
+        if kind not in legal:
+            parse(parser, name)
+            legal.add(kind)
+
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(Lark, "parse", once)
+        yield
 
 
 @pytest.fixture(scope="session")
@@ -44,9 +62,21 @@ def native_surfaces(native, once) -> list[Path]:
 
 
 @pytest.fixture(scope="session")
-def native_folder(native, tmp_path_factory) -> Path:
+def unzipped(tmp_path_factory):
+    """Return a function that gives the folder of an unzipped native FMU, one for all tests, which leave it as it is."""
+
+    @cache
+    def folder(path: Path) -> Path:
+        place = tmp_path_factory.mktemp("unzipped") / "with blanks, ümläuts and 100 %"
+        return Path(fmpy.extract(str(path), str(place)))
+
+    return folder
+
+
+@pytest.fixture(scope="session")
+def native_folder(native, unzipped) -> Path:
     """Return the folder of the unzipped native WheelRailContact."""
-    return Path(fmpy.extract(str(native), str(tmp_path_factory.mktemp("unzipped"))))
+    return unzipped(native)
 
 
 @pytest.fixture(scope="session")
@@ -57,7 +87,7 @@ def native_fmi3(native) -> Path:
 
 @pytest.fixture(scope="session")
 def native_fmi3_folder(native_fmi3, tmp_path_factory) -> Path:
-    """Return the folder of the unzipped native WheelRailContact of FMI 3.0."""
+    """Return the folder of the unzipped native WheelRailContact of FMI 3.0. Its path is plain: Wine passes it on as a word."""
     return Path(fmpy.extract(str(native_fmi3), str(tmp_path_factory.mktemp("unzipped"))))
 
 
@@ -82,8 +112,8 @@ def open_native_fmi3(native_fmi3_folder):
 def _opened(make):
     instances = []
 
-    def open_one(kind: str = "CoSimulation"):
-        instances.append(make(kind))
+    def open_one(kind: str = "CoSimulation", **given):
+        instances.append(make(kind, **given))
         return instances[-1]
 
     yield open_one
@@ -100,20 +130,15 @@ def wine(once) -> None:
 
 
 @pytest.fixture(scope="session")
-def hosts(request, native, tmp_path_factory):
+def hosts(request, native, unzipped, tmp_path_factory):
     """Return a function that gives the C host of a platform and an FMU, each compiled once. "win64" runs under Wine."""
-
-    @cache
-    def unzipped(name: str) -> Path:
-        folder = tmp_path_factory.mktemp("unzipped") / "with blanks, ümläuts and 100 %"
-        place = request.getfixturevalue("native_vehicles") if name in VEHICLES else native.parent
-        return Path(fmpy.extract(str(place / f"{name}.fmu"), str(folder)))
 
     @cache
     def make(platform: str, name: str) -> Host:
         if platform == "win64":
             request.getfixturevalue("wine")
-        return Host(platform, tmp_path_factory.mktemp(platform), unzipped(name), name)
+        place = request.getfixturevalue("native_vehicles") if name in VEHICLES else native.parent
+        return Host(platform, tmp_path_factory.mktemp(platform), unzipped(place / f"{name}.fmu"), name)
 
     return make
 
@@ -149,32 +174,17 @@ def pair_file(request) -> Path:
     return folder / f"{PAIR}.fmu"
 
 
-def _pairs(file: Path, folder: Path):
-    """Yield a function that instantiates a WheelRailPair, each time from a new folder. All instances are freed at the end."""
-    instances = []
-
-    def open_one(kind: str = "CoSimulation", path: Path = file) -> Instance:
-        # pythonfmu 0.7.0 crashes at a path that must be encoded in a URI
-        odd = "with blanks, ümläuts and 100 %" if file.parent.name == "native" else "plain"
-        unzipped = fmpy.extract(str(path), str(folder / f"{odd}{len(instances)}" / PAIR))
-        instances.append(Instance(Path(unzipped), kind=kind))
-        return instances[-1]
-
-    yield open_one
-    for instance in instances:
-        instance.fmu.freeInstance()
-
-
 @pytest.fixture
-def open_pair(pair_file, tmp_path):
+def open_pair(pair_file, open_fmu, native_pair):
     """Return a function that instantiates WheelRailPair in each packaging."""
-    yield from _pairs(pair_file, tmp_path)
+    return native_pair if pair_file.parent.name == "native" else partial(open_fmu, PAIR)
 
 
 @pytest.fixture
-def native_pair(native, tmp_path):
-    """Return a function that instantiates the native WheelRailPair."""
-    yield from _pairs(native.with_name(f"{PAIR}.fmu"), tmp_path)
+def native_pair(native, unzipped):
+    """Return a function that instantiates the native WheelRailPair, or that of another file."""
+    file = native.with_name(f"{PAIR}.fmu")
+    yield from _opened(lambda kind, path=file: Instance(unzipped(path), kind=kind))
 
 
 @pytest.fixture
@@ -182,9 +192,9 @@ def open_fmu(fmus, tmp_path):
     """Return a function that instantiates an FMU by name. All instances are freed at the end."""
     instances = []
 
-    def open_fmu(name: str, folder: str = "") -> Instance:
+    def open_fmu(name: str, folder: str = "", path: Path | None = None) -> Instance:
         directory = tmp_path / folder / f"{name}-{len(instances)}"
-        fmpy.extract(str(fmus / f"{name}.fmu"), str(directory))
+        fmpy.extract(str(path or fmus / f"{name}.fmu"), str(directory))
         instances.append(Instance(directory))
         return instances[-1]
 

@@ -2,10 +2,8 @@
 
 import math
 from collections.abc import Callable
-from pathlib import Path
 from typing import NamedTuple
 
-import fmpy
 import pytest
 import wheelset_case
 from contact_case import NAME, posed
@@ -56,13 +54,13 @@ def open_contact(request, packaging):
 
 
 @pytest.fixture
-def open_wheelset(request, packaging, tmp_path):
+def open_wheelset(request, packaging, unzipped):
     """Return a function that instantiates Wheelset in each packaging."""
     if packaging == "python":
         opened = request.getfixturevalue("open_fmu")
         yield lambda: opened("Wheelset")
         return
-    folder = Path(fmpy.extract(str(request.getfixturevalue("native_wheelset")), str(tmp_path / "native")))
+    folder = unzipped(request.getfixturevalue("native_wheelset"))
     instances = []
 
     def native():

@@ -5,9 +5,7 @@ A master trusts it: it finds algebraic loops by it and does not ask for an outpu
 
 import math
 from collections.abc import Iterator
-from pathlib import Path
 
-import fmpy
 import pytest
 from fmpy.fmi1 import FMICallException
 from fmu_instance import Instance
@@ -18,6 +16,8 @@ from fmu_src.variables import Kind, Table
 from models.wheelset.ports import POINTS
 from reference.native import SCENARIO
 
+#: As coarse as a contact can be with sense: as many pairs of variables and outputs move as at 20 x 20, in a fifth of the time.
+COARSE = {"resolution.n_strips": 6, "resolution.n_elements": 5}
 FRICTION = {"friction.law": 3, "friction.velocity": 2, "friction.kinetic": 0.1, "friction.gauge_factor": 0.5,
             "friction.hot_factor": 0.6, "friction.slope": 0.6, "friction.slope_far": 0.5}  # fmt: skip
 CONTACT = {"creepage.longitudinal": 1e-3, "creepage.lateral": 5e-4, "creepage.spin": 0.1}
@@ -82,11 +82,10 @@ def outputs(fmu: Instance, values: dict[str, float], read: list[str]) -> dict[st
 
 
 @pytest.mark.parametrize("name", CASES)
-def test_no_output_moves_with_a_variable_on_which_it_does_not_depend(request, native, tmp_path, name):
+def test_no_output_moves_with_a_variable_on_which_it_does_not_depend(request, native, unzipped, name):
     """Outputs at the start. Those of the wheelset follow inputs at once in model exchange only."""
     folder = request.getfixturevalue("native_vehicles") if name in VEHICLES else native.parent
-    unzipped = Path(fmpy.extract(str(folder / f"{name}.fmu"), str(tmp_path)))
-    fmu = Instance(unzipped, kind="ModelExchange" if name == "Wheelset" else "CoSimulation")
+    fmu = Instance(unzipped(folder / f"{name}.fmu"), kind="ModelExchange" if name == "Wheelset" else "CoSimulation")
     table = table_of(name)
     rows = {
         row.name: row for row in table.shown if row.initial == "calculated" and not row.name.startswith("accumulated")
@@ -94,7 +93,8 @@ def test_no_output_moves_with_a_variable_on_which_it_does_not_depend(request, na
     of = {s.name: s.row.name for s in table.scalars if s.row.name in rows and s.row.name != "creep_stiffness"}
     allowed = {output: {row.name for row in table.knowns(rows[output])} for output in rows}
     wrong = set()
-    for case in CASES[name]:
+    coarse = {k: v for k, v in COARSE.items() if k in fmu.variables}
+    for case in ({**coarse, **case} for case in CASES[name]):
         start = outputs(fmu, case, list(of))
         assert start is not None, case
         for row in table.shown:

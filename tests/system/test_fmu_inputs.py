@@ -30,12 +30,15 @@ CHOICES = [
 
 
 @pytest.fixture(params=["native", "python"])
-def make(request, native, fmus, tmp_path):
+def make(request, native, unzipped, fmus, tmp_path):
     """Return a function that instantiates an FMU by name, with parameters, before its initialisation."""
-    folder, made = native.parent if request.param == "native" else fmus, []
+    made = []
 
     def make(name: str, parameters: dict | None = None) -> Instance:
-        directory = Path(fmpy.extract(str(folder / f"{name}.fmu"), str(tmp_path / f"{name}-{len(made)}")))
+        if request.param == "native":
+            directory = unzipped(native.with_name(f"{name}.fmu"))
+        else:
+            directory = Path(fmpy.extract(str(fmus / f"{name}.fmu"), str(tmp_path / f"{name}-{len(made)}")))
         made.append(Instance(directory))
         made[-1].update(parameters or {})
         return made[-1]

@@ -1,8 +1,5 @@
 """Damage that the FMU `WheelRailPair` accumulates in bins over both profiles, in both packagings."""
 
-from pathlib import Path
-
-import fmpy
 import numpy as np
 import pytest
 from fmu_instance import discarded
@@ -122,13 +119,12 @@ def test_bins_stay_zero_when_nothing_accumulates(open_pair):
 
 
 @pytest.fixture
-def open_pair_fmi3(native_fmi3, tmp_path):
+def open_pair_fmi3(native_fmi3, unzipped):
     """Return a function that instantiates the native FMU of FMI 3.0."""
     instances = []
 
     def open_pair_fmi3(kind: str = "CoSimulation") -> Instance3:
-        folder = fmpy.extract(str(native_fmi3.with_name(f"{NAME}.fmu")), str(tmp_path / f"three{len(instances)}"))
-        instances.append(Instance3(Path(folder), kind=kind))
+        instances.append(Instance3(unzipped(native_fmi3.with_name(f"{NAME}.fmu")), kind=kind))
         return instances[-1]
 
     yield open_pair_fmi3

@@ -1,6 +1,5 @@
 """Adjoint derivatives of the native FMUs of FMI 3.0, and the derivatives that the kernels know."""
 
-import fmpy
 import numpy as np
 import pytest
 from fmu_instance_fmi3 import Instance3
@@ -42,10 +41,10 @@ def adjoint(fmu, unknowns, knowns, v) -> np.ndarray:
 
 
 @pytest.fixture(params=["WheelRailContact", "WheelRailPair"])
-def case(request, native, tmp_path):
+def case(request, native, unzipped):
     """Return an instance of model exchange, what its kernels derive, and by what."""
     path = native.parent / "fmi3" / f"{request.param}.fmu"
-    fmu = Instance3(fmpy.extract(str(path), str(tmp_path / request.param)), kind="ModelExchange")
+    fmu = Instance3(unzipped(path), kind="ModelExchange")
     contact = request.param == "WheelRailContact"
     fmu.update(CREEPAGES if contact else {"pose.y": 2e-3, "pose.yaw": 2e-3, "velocity.y": 0.02})
     fmu.initialize()

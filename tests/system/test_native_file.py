@@ -164,9 +164,9 @@ def test_handy_units_are_offered(native):
     assert (units["mm"], units["MPa"], units["kN"]) == (1e3, 1e-6, 1e-3)
 
 
-def test_the_small_variant_is_the_contact_with_curvatures(native, open_native, tmp_path):
+def test_the_small_variant_is_the_contact_with_curvatures(native, open_native, unzipped):
     """It shows few inputs; its code is that of WheelRailContact."""
-    small = Instance(Path(fmpy.extract(str(native.with_name("EllipticContact.fmu")), str(tmp_path))))
+    small = Instance(unzipped(native.with_name("EllipticContact.fmu")))
     large = open_native()
     large.update({"geometry.kind": 2})
     inputs = [name for name, v in small.variables.items() if v.causality == "input"]

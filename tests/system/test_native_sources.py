@@ -4,7 +4,6 @@ import os
 import shutil
 import subprocess
 import sys
-from functools import cache
 from pathlib import Path
 
 import fmpy
@@ -15,7 +14,7 @@ from script_host import Script
 from fmu_src.native import systems
 from fmu_src.native.headers import HEADERS
 from fmu_src.native.linking import compiler, run
-from reference.native import HOST
+from reference.native import HOST, compile_once
 
 STRICT = ("-std=c11", "-Wall", "-Wextra", "-Werror")
 #: Numbers are the same at every level. -O0 compiles kernels four times as fast as -O1.
@@ -25,15 +24,14 @@ NAMES = ("EllipticContact", "WheelRailContact", "WheelRailPair", "Wheelset", *VE
 
 
 @pytest.fixture(scope="module")
-def unzipped(request, native, tmp_path_factory):
-    """Return a function that unzips an FMU once and returns its folder."""
+def unzipped(request, native, unzipped):
+    """Return a function that gives the folder of an FMU by its name."""
 
-    @cache
-    def make(name: str) -> Path:
+    def folder(name: str) -> Path:
         place = request.getfixturevalue("native_vehicles") if name in VEHICLES else native.parent
-        return Path(fmpy.extract(str(place / f"{name}.fmu"), str(tmp_path_factory.mktemp(name))))
+        return unzipped(place / f"{name}.fmu")
 
-    return make
+    return folder
 
 
 def _listed(folder: Path) -> list[Path]:
@@ -44,15 +42,12 @@ def _listed(folder: Path) -> list[Path]:
 
 
 def _objects(folder: Path, into: Path, target: str, *prefix: str) -> list[Path]:
-    """Compile the FMU's sources for a target of zig, those with functions of FMI with the option `prefix`.
-
-    zig reads the others from its cache if it has compiled them: kernels take most of the time.
-    """
+    """Compile the FMU's sources for a target of zig, those with functions of FMI with the option `prefix`."""
     objects, options = [], [*FLAGS, f"-I{folder / 'sources'}"]
     for path in _listed(folder):
         objects.append(into / f"{path.stem}.o")
         chosen = prefix if not path.stem.endswith(("_kernels", "_data")) else ()
-        run(*_zig(target), *options, *chosen, "-c", path, "-o", objects[-1])
+        compile_once(_zig(target), (*options, *chosen, "-c", path), folder / "sources", objects[-1])
     return objects
 
 
@@ -60,10 +55,8 @@ def _zig(target: str) -> list[str]:
     return [sys.executable, "-m", "ziglang", "cc", "-target", target]
 
 
-def _embedded(folder: Path, target: str, *options: str) -> Path:
+def _embedded(folder: Path, into: Path, target: str, *options: str) -> Path:
     """Compile the FMU's sources and a host to one program for a target of zig."""
-    into = folder / target
-    into.mkdir(exist_ok=True)
     guid = fmpy.read_model_description(str(folder)).guid
     parts = [f"-I{folder / 'sources'}", f'-DMODEL_GUID="{guid}"', *_objects(folder, into, target), HOST / "embedded.c"]
     run(*_zig(target), *FLAGS, *options, *parts, "-o", into / "embedded", "-lm")
@@ -99,7 +92,7 @@ def _of_library(folder: Path) -> np.ndarray:
 
 
 @pytest.mark.parametrize("name", NAMES)
-def test_the_sources_give_the_numbers_of_the_library(unzipped, name):
+def test_the_sources_give_the_numbers_of_the_library(unzipped, tmp_path, name):
     """Bit for bit: the same operations and the same C library."""
     if (
         name in (*VEHICLES, "EllipticContact") and "SOAK" not in os.environ
@@ -108,7 +101,7 @@ def test_the_sources_give_the_numbers_of_the_library(unzipped, name):
     folder = unzipped(name)
     expected = _of_library(folder)
     assert np.count_nonzero(expected) > 3
-    np.testing.assert_array_equal(_said(folder, _embedded(folder, "x86_64-linux-gnu.2.17")), expected)
+    np.testing.assert_array_equal(_said(folder, _embedded(folder, tmp_path, "x86_64-linux-gnu.2.17")), expected)
 
 
 @pytest.mark.parametrize("name", NAMES)
@@ -119,13 +112,16 @@ def test_gcc_has_no_remark_on_the_sources(unzipped, name):
     run("gcc", *STRICT, "-pedantic-errors", "-fsyntax-only", *_listed(unzipped(name)))
 
 
-def test_on_64_bit_arm_the_sources_give_the_same_numbers(unzipped):
+def test_on_64_bit_arm_the_sources_give_the_same_numbers(unzipped, tmp_path):
     """Run by qemu. Its C library, musl, differs from glibc in the last digit of exp, log and pow."""
     qemu = shutil.which("qemu-aarch64") or shutil.which("qemu-aarch64-static")
     if not qemu:
         pytest.skip("64-BIT ARM IS NOT TESTED: qemu is not installed (apt-get install qemu-user)")
     folder = unzipped("WheelRailContact")
-    found, expected = _said(folder, _embedded(folder, "aarch64-linux-musl", "-static"), qemu), _of_library(folder)
+    found, expected = (
+        _said(folder, _embedded(folder, tmp_path, "aarch64-linux-musl", "-static"), qemu),
+        _of_library(folder),
+    )
     scale = np.maximum(np.abs(expected), 1e-9 * np.max(np.abs(expected)))
     assert np.max(np.abs(found - expected) / scale) < 1e-6
 

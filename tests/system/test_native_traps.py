@@ -6,7 +6,6 @@ import os
 import sys
 from pathlib import Path
 
-import fmpy
 import pytest
 from fmu_instance import Instance
 
@@ -60,13 +59,10 @@ def trapped(folder: Path, values: dict) -> int:
 
 
 @pytest.fixture(scope="module")
-def folders(native, tmp_path_factory):
+def folders(native, unzipped):
     if not sys.platform.startswith("linux"):
         pytest.skip("TRAPS ARE NOT TESTED: feenableexcept is a function of glibc")
-    return {
-        name: Path(fmpy.extract(str(native.with_name(f"{name}.fmu")), str(tmp_path_factory.mktemp(name))))
-        for name in ("WheelRailContact", "WheelRailPair")
-    }
+    return {name: unzipped(native.with_name(f"{name}.fmu")) for name in ("WheelRailContact", "WheelRailPair")}
 
 
 def test_a_trap_would_be_seen():

@@ -37,8 +37,8 @@ IN_MOTION = {"lateral": 4e-3, "yaw": 2e-3, "lateral_velocity": 0.03, "yaw_rate":
 
 
 @pytest.fixture(scope="module")
-def folder(native_wheelset, tmp_path_factory) -> Path:
-    return Path(fmpy.extract(str(native_wheelset), str(tmp_path_factory.mktemp("wheelset"))))
+def folder(native_wheelset, unzipped) -> Path:
+    return unzipped(native_wheelset)
 
 
 @pytest.fixture

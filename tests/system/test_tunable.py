@@ -4,7 +4,7 @@ import fmpy
 import numpy as np
 import pytest
 from contact_case import NAME
-from fmu_instance import ERROR, Instance, discarded, refused
+from fmu_instance import ERROR, discarded, refused
 from thesis_case import THESIS
 
 METHODS = {name: value for name, value in THESIS.items() if name.startswith("method.")}
@@ -138,9 +138,9 @@ def test_fmpy_tunes_during_a_run(native, native_fmi3, kind):
         assert found["total.energy"][-1] == pytest.approx(energy, rel=1e-6 if kind == "ModelExchange" else 0.02)
 
 
-def test_both_packagings_of_the_pair_keep_their_memory(native, open_fmu, tmp_path):
+def test_both_packagings_of_the_pair_keep_their_memory(native_pair, open_fmu):
     """The warm start of interacting strips, and the bins of accumulated damage."""
-    one = Instance(fmpy.extract(str(native.with_name("WheelRailPair.fmu")), str(tmp_path / "native")))
+    one = native_pair()
     other, found = open_fmu("WheelRailPair"), []
     for fmu in (one, other):
         fmu.update({"pose.y": 2e-3, "velocity.spin": -43.6, "accumulation.wear_law": 2})
@@ -151,7 +151,6 @@ def test_both_packagings_of_the_pair_keep_their_memory(native, open_fmu, tmp_pat
             fmu.step()
             rows.append(fmu.all("output"))
         found.append(rows)
-    one.free()
     for mine, wanted in zip(*found, strict=True):
         assert mine == pytest.approx(wanted, rel=1e-12, abs=1e-12)
     worn = [sum(v for name, v in row.items() if name.startswith("accumulated.wheel.volume")) for row in found[0]]

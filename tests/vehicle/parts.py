@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 
 from contact.geometry import profile
 from contact.geometry.profile import Profile
@@ -11,10 +12,12 @@ from models.life.track import Track
 from models.vehicle.course import lay
 from models.vehicle.declared import VehicleDeclaration, read
 from models.vehicle.sections import RailSection
-from models.vehicle.simulation import ContactOptions, Simulation
+from models.vehicle.simulation import PACE, ContactOptions, Simulation
 
 #: Methods that are compiled and solved fast.
 FAST = ContactOptions(normal="analyn", tangential="fastrip", n_strips=20, n_elements=12)
+#: The same, solved anew only where a contact has changed (`test_between.py`): where a vehicle is tested, not its contacts.
+PACED = replace(FAST, pace=PACE)
 
 
 def simulation(

@@ -8,17 +8,17 @@ from models.life.track import Curve, Track
 from models.vehicle import curving, hunting, linear
 from models.vehicle.declared import read
 from models.vehicle.kernels.layout import Sum
-from tests.vehicle.parts import FAST, simulation
+from tests.vehicle.parts import FAST, PACED, simulation
 
 PROFILES = profile.s1002(), profile.rail_60e1()
 
 
 def test_steady_curving_is_the_equilibrium():
-    """Time response after six seconds in the curve against Newton's method: forces within 2 % of the wheel load."""
+    """Time response after three seconds in the curve against Newton's method: forces within 2 % of the wheel load."""
     found = curving.in_curve(read("manchester"), PROFILES, 600.0, speed=25.0, cant=0.1, options=FAST)
     track = Track(curves=(Curve(start=20.0, radius=600.0, length=400.0, transition=40.0, cant=0.1),))
-    sim = simulation("manchester", track, speed=25.0, length=300.0)
-    sim.advance(4e-4, 20000)
+    sim = simulation("manchester", track, speed=25.0, length=300.0, options=PACED)
+    sim.advance(4e-4, 12500)
     sim.state.sums[:] = 0.0
     sim.advance(4e-4, 2500)
     for name, column in (("lateral", Sum.LATERAL), ("vertical", Sum.VERTICAL)):
@@ -33,7 +33,7 @@ def test_the_limit_cycle_of_a_wheelset_lasts_below_the_linear_critical_speed():
     def at_speed(speed: float):
         return simulation("wheelset", speed=speed)
 
-    found = hunting.fall(read("wheelset"), PROFILES, (8.0, 40.0), deceleration=2.0, threshold=4e-3, options=FAST)
+    found = hunting.fall(read("wheelset"), PROFILES, (8.0, 40.0), deceleration=3.0, threshold=4e-3, options=PACED)
     small = linear.critical_speed(at_speed, bounds=(10.0, 60.0))
     assert found.amplitude[:4].max() > 6e-3
     assert found.amplitude[-1] < 3e-3

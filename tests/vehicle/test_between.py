@@ -14,10 +14,9 @@ from models.vehicle import linear
 from models.vehicle.course import lay
 from models.vehicle.declared import read
 from models.vehicle.kernels.layout import Axis, Book
-from models.vehicle.simulation import PACE, Simulation
-from tests.vehicle.parts import FAST, simulation
+from models.vehicle.simulation import Simulation
+from tests.vehicle.parts import FAST, PACED, simulation
 
-PACED = dataclasses.replace(FAST, pace=PACE)
 STEP = 4e-4
 LOAD = 54546.0  # static, of a wheel of the benchmark vehicle [N]
 

@@ -153,6 +153,7 @@ def scenario(tmp_path):
     return path
 
 
+@pytest.mark.usefixtures("undrawn")
 def test_scenario_with_a_crossing_runs_resumes_and_says_where_damage_is_not_counted(scenario):
     whole, halved = VehicleRun(read_scenario(scenario)), VehicleRun(read_scenario(scenario))
     while not whole.done:

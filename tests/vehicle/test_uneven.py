@@ -110,6 +110,7 @@ def test_energy_of_an_impact_is_kept(two_turns):
     assert abs(residual[half - 1]) < 2.0  # [J] after the impact; the contacts store up to 80 J in it
 
 
+@pytest.mark.usefixtures("undrawn")
 def test_scenario_with_a_flat_runs_resumes_and_leaves_out_the_damage_of_its_wheel(tmp_path):
     path = tmp_path / "flat.toml"
     path.write_text(SCENARIO + FLAT)

@@ -5,7 +5,9 @@
 #include <unistd.h>
 #endif
 
+#ifndef N_INSTANCES
 #define N_INSTANCES 64
+#endif
 #define N_THREADS 8
 #define N_STEPS 20
 static fmi2Component crowd[N_INSTANCES];
