@@ -244,7 +244,8 @@ def test_a_flat_is_passed_without_a_jump():
         found = [
             solver.solve(Pose(), FREE, rotation=float(a), load=8e4, friction=0.0) for a in np.arange(0, 0.07, step)
         ]
-        assert [one.Q for one in found] == pytest.approx([8e4] * len(found), rel=1e-4)
+        # where a sharp end lies in the patch, the strips' force repeats to some 1e-4 only (surfaces.md, limits)
+        assert [one.Q for one in found] == pytest.approx([8e4] * len(found), rel=1e-3)
         steps.append(np.abs(np.diff([one.z for one in found])).max())
     assert steps[1] < 0.5 * steps[0]
 
