@@ -60,7 +60,7 @@ def fmu(
     ] = False,
     as_json: opt.Json = False,
 ) -> None:
-    """Build the FMUs: Wheelset, WheelRailContact and WheelRailPair.
+    """Build the FMUs: WheelRailContact, EllipticContact, WheelRailPair, Wheelset and, native, WheelRailSurfaces.
 
     Example:  contact fmu --packaging python --out dist
     """

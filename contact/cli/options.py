@@ -69,7 +69,10 @@ Yaw = Annotated[float, in_position(help="yaw in rad, positive steers to the righ
 Speed = Annotated[float, in_position(help="rolling speed in m/s")]
 Load = Annotated[
     float | None,
-    in_loading(help=f"vertical load of a wheel (normal force with --curvatures) in N; default {STANDARD_LOAD:g}"),
+    in_loading(
+        help="vertical load of a wheel, which the normal forces alone carry (normal force with --curvatures), in N; "
+        f"default {STANDARD_LOAD:g}"
+    ),
 ]
 Penetration = Annotated[float | None, in_loading(help="instead of a load: depth below first touch, or approach in m")]
 Friction = Annotated[float, in_loading(help="coefficient of friction")]

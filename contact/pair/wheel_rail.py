@@ -34,7 +34,7 @@ from contact.pair.elastic_rail import ElasticRail
 from contact.pair.motion import AnyPair
 from contact.pair.solution import Contact, PairDamage, PairSolution
 from contact.plausibility import doubt_alike, doubt_gap
-from contact.registry import DEFAULT_NORMAL, DEFAULT_TANGENTIAL, GAP_LIMIT, lookup
+from contact.registry import DEFAULT_NORMAL, DEFAULT_TANGENTIAL, lookup
 from contact.solution import PairJacobian, Status
 from contact.solution.jacobian import columns_of_pair
 from contact.solve import solve
@@ -127,8 +127,7 @@ class WheelRailPair(AnyPair):
         constant = isinstance(pair, Pair)
         self._solve = solve_on_profiles if constant else solve_on_surfaces
         self._packed = pack(Bench[Search] if constant else Bench[SurfaceSearch], self.bench)
-        # the parabolas along surfaces add their own error, for which the lower limit is too low
-        self._gap_limit = method.gap_limit if constant else GAP_LIMIT
+        self._gap_limit = method.gap_limit
         self._rail, self._offset = _RIGID, _STRAIGHT
         self.bench.damage_parameters[:] = (damage or DamageParameters()).record(material, 1.0, 1.0)
 
@@ -243,10 +242,10 @@ class WheelRailPair(AnyPair):
         else:
             raise ContactError(f"vertical = {vertical} excludes load = {load} and penetration = {penetration}")
         self.bench.ledger.settings["distance"] = require_number("distance", distance, 0.0)
-        set_surface(self.bench.case, as_friction(friction), (velocity or Velocity()).forward)
         self._set_rail(_RIGID if rail is None else rail)
         self._set_offset(_STRAIGHT if offset is None else offset)
         given = self.pair.given(pose, velocity, irregularity, station=station, rotation=rotation + self._offset.pitch)
+        set_surface(self.bench.case, as_friction(friction), float(given.vx))
         code = self._solve(mode, amount, given, self._packed)
         if code == NoAnswer.TURNED:
             raise ContactError(

@@ -104,6 +104,8 @@ def kernels(say: Callable[[str], None] = print) -> Path:
     content = digest(*parts, *models, *(_ROOT / "explorer").glob("patch.py"))
     made = library.cache_folder() / f"{library.PREFIX}{library.fingerprint()}-systems-{content}"
     if not made.is_dir():
+        import ziglang  # noqa: F401 - without it the libraries could not be linked, which the user must not learn minutes later
+
         say("compiling the kernels for all systems, some minutes the first time")
     return library.build(made, "--systems")
 

@@ -366,6 +366,7 @@ POINTS = np.stack((ARC.y, ARC.z), axis=1)
         (lambda: RailSurface([0.0], [POINTS], corners=[1]), "is no inner feature"),
         (lambda: RailSurface([0.0], [POINTS], spacing=0.0), r"spacing = 0 is outside"),
         (lambda: RailSurface.constant(WHEEL), "not a profile of a rail"),
+        (lambda: RailSurface([0.0, 1.0], [ARC, CONE]), r"slices\[1\] = .* is not a profile of a rail"),
         (lambda: WheelSurface([0.0, 7.0], [POINTS] * 2), "less than a full turn"),
         (lambda: WheelSurface.from_deviations([0.0, 0.1], ARC.y, np.zeros((2, 5))), r"dr has shape \(2, 5\)"),
         (lambda: WheelSurface.constant(CONE, 3.0), r"deviation = 3.0 has no method at\(u\)"),

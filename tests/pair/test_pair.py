@@ -372,3 +372,8 @@ def test_the_patches_share_T_gamma_and_damage_has_the_names_of_a_solution():
 def test_an_argument_of_a_wrong_type_is_a_contact_error(arguments, options, message):
     with pytest.raises(ContactError, match=message):
         WheelRailPair(*arguments, **options)
+
+
+def test_a_speed_in_place_of_a_velocity_is_a_contact_error():
+    with pytest.raises(ContactError, match=r"velocity = 20.0 is not a contact.geometry.wheelset.Velocity"):
+        make().solve(Pose(), 20.0, load=80e3)

@@ -1,11 +1,13 @@
 """Forces on surfaces: against CONTACT, against constant profiles, balances, symmetry."""
 
 import math
+import warnings
 
 import numpy as np
 import pytest
 
 from contact import STEEL, ContactError, Status
+from contact.errors import ModelWarning
 from contact.geometry import profile
 from contact.geometry.flexible import WheelOffset
 from contact.geometry.surfaces import Flat, Polygon, RailSurface, SurfacePair, Wave, WheelSurface
@@ -236,6 +238,19 @@ def test_a_repeated_call_gives_the_same_bits_whatever_was_solved_between():
 
 
 @pytest.mark.slow
+def test_strips_warn_at_the_sharp_end_of_a_flat_as_on_profiles():
+    """Their largest pressure is less than half of the half space's there. On the wheel without a flat they do not warn."""
+    pair = SurfacePair(WheelSurface.constant(WHEEL, Flat(0.03, R0, shape="chord")), RAIL)
+    at = {"station": -5e-3, "rotation": 5e-3 / R0, "friction": 0.0}
+    with pytest.warns(ModelWarning, match="gap_error"):
+        strips = WheelRailPair(pair).solve(Pose(), FREE, load=8e4, **at)
+    elements = HalfspacePair(pair).solve(Pose(z=strips.z), FREE, **at)
+    assert strips.max_pressure < 0.5 * elements.max_pressure
+    with warnings.catch_warnings():
+        warnings.simplefilter("error", ModelWarning)
+        WheelRailPair(SurfacePair(WheelSurface.constant(WHEEL), RAIL)).solve(Pose(), FREE, load=8e4)
+
+
 def test_a_flat_is_passed_without_a_jump():
     """Between the ends of the flat the contact goes over from one to the other. The load is carried at every angle."""
     solver = WheelRailPair(SurfacePair(WheelSurface.constant(WHEEL, Flat(0.05, R0, 4e-4)), RAIL))

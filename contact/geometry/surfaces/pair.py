@@ -180,6 +180,7 @@ class SurfacePair(Posed):
         motion.reach, motion.tilted = self.reach, self.tilted
         self.space.case["G"], self.space.case["nu"] = material.shear_modulus, material.poisson_ratio
         self.patches, self.separations = self.space.patches, self.space.separations
+        self._pose = Pose()  # of the last `place`, for errors
 
     def _apart(self, pose: Pose) -> ContactError:
         return ContactError(f"pose.y = {pose.y:g}: the {self.side} wheel does not lie above its rail")
@@ -210,6 +211,7 @@ class SurfacePair(Posed):
     ) -> None:
         """Place wheel and rail for `settle`, `carried` and `found`. Parameters as for `contacts`."""
         move(self.given(pose, velocity, irregularity, station=station, rotation=rotation), self.space.motion[0])
+        self._pose = pose
 
     def touch(self, pose: Pose, *, station: float = 0.0, rotation: float = 0.0) -> float:
         """Return z [m] at which the rigid wheel just touches the rail. Parameters as for `contacts`."""
@@ -220,8 +222,7 @@ class SurfacePair(Posed):
     def _search(self, mode: int, amount: float) -> int:
         """Describe the patches at the pose of the last `place` and return their number."""
         n = find(mode, amount, self.space)
-        motion = self.space.motion[0]
-        self.require_found(n, Pose(self._mirror * float(motion.y), float(motion.z)), None)
+        self.require_found(n, self._pose, None)
         return int(n)
 
     def contacts(

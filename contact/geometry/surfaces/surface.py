@@ -104,6 +104,7 @@ class RailSurface(_Surface):
         require_number("spacing", spacing, 1e-5, 1e-2)
         u = positions("s", s)
         sheet = connect(u, slices, features, corners, interpolating=interpolating, spacing=spacing)
+        _require_slices(slices, "rail")
         super().__init__(sheet, deviations, name)
 
     @classmethod
@@ -169,6 +170,7 @@ class WheelSurface(_Surface):
             closed = u.size > 2 and _FULL - span <= _WIDEST * float(np.diff(u).max())
         period = _FULL if closed else None
         sheet = connect(u, slices, features, corners, interpolating=interpolating, spacing=spacing, period=period)
+        _require_slices(slices, "wheel")
         super().__init__(sheet, deviations, name)
 
     @classmethod
@@ -222,9 +224,15 @@ class WheelSurface(_Surface):
         return super().curves(self._turned(u))
 
 
-def _require_kind(profile: object, kind: str) -> None:
+def _require_kind(profile: object, kind: str, name: str = "profile") -> None:
     if not isinstance(profile, Profile) or profile.kind != kind:
-        raise ContactError(f"profile = {profile!r} is not a profile of a {kind}")
+        raise ContactError(f"{name} = {profile!r} is not a profile of a {kind}")
+
+
+def _require_slices(slices: Sequence[Slice], kind: str) -> None:
+    for k, one in enumerate(slices):
+        if isinstance(one, Profile):
+            _require_kind(one, kind, f"slices[{k}]")
 
 
 __all__ = ["MOST_SLICES", "RailSurface", "WheelSurface"]
