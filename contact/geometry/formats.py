@@ -21,6 +21,7 @@ Points = NDArray[np.float64]  # shape (n, 2): y, z
 
 MM = 1e-3
 INCH = 25.4e-3
+_NOT_FINITE = re.compile(r"(?<![\w.])(nan|inf)(?![\w.])", re.IGNORECASE)
 _NUMBER_WITH_COMMA = re.compile(r"[+-]?\d*,\d+(?:[eE][+-]?\d+)?")
 _NUMBER = re.compile(r"[+-]?\d+(?:[.,]\d*)?(?:[eE][+-]?\d+)?")
 
@@ -115,7 +116,7 @@ def columns(lines: Sequence[str], path: Path, side: str) -> Content:
         try:
             rows.append(_numbers(text, number, path)[:2])
         except ContactError:
-            if len(rows) > 1:
+            if len(rows) > 1 or _NOT_FINITE.search(text):
                 raise
             rows.clear()  # the line belongs to the header
     if not rows:

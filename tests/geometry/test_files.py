@@ -98,6 +98,7 @@ def test_plain_columns_either_side_either_way_up(tmp_path, shape, side, sign, up
         ("words.txt", "no numbers\nat all\n", {"kind": "rail", "unit": "m", "side": "right"}, "no columns of numbers"),
         ("late.txt", "0 0\n1 1\n2 2\nend of data\n", {"kind": "rail", "unit": "m", "side": "right"}, "line 4"),
         ("nan.txt", "0 0\n1 1\n2 nan\n", {"kind": "rail", "unit": "m", "side": "right"}, "line 3"),
+        ("early.csv", "y;z\n0;0\nnan;nan\n1;1\n2;2\n", {"kind": "rail", "unit": "m", "side": "right"}, "line 3"),
         ("a.txt", "0 0", {"unit": "m", "side": "right"}, "kind = None"),
         ("a.txt", "0 0", {"kind": "rail", "side": "right"}, "unit = None"),
         ("a.txt", "0 0", {"kind": "rail", "unit": "m"}, "side = None"),
