@@ -88,6 +88,7 @@ class HalfspacePair(AnyPair):
         if vertical is not None:
             require_number("vertical", vertical, 0.0)
         self.pair.place(pose, velocity, station=station, rotation=rotation, irregularity=irregularity)
+        self.pair.doubt(pose, velocity, *((load,) if vertical is None else (vertical, "vertical")))
         if vertical is not None:
             return self._under(vertical, pose, velocity, friction)
         mode, amount = self.pair.prescribed(load, penetration)

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from contact import STEEL, ContactError, Status
-from contact.errors import ModelWarning
+from contact.errors import ModelWarning, PlausibilityWarning
 from contact.geometry import profile
 from contact.geometry.flexible import WheelOffset
 from contact.geometry.surfaces import Flat, Polygon, RailSurface, SurfacePair, Wave, WheelSurface
@@ -249,6 +249,12 @@ def test_strips_warn_at_the_sharp_end_of_a_flat_as_on_profiles():
     with warnings.catch_warnings():
         warnings.simplefilter("error", ModelWarning)
         WheelRailPair(SurfacePair(WheelSurface.constant(WHEEL), RAIL)).solve(Pose(), FREE, load=8e4)
+
+
+def test_the_half_space_pair_doubts_what_strips_doubt():
+    solver = HalfspacePair(SurfacePair(WheelSurface.constant(WHEEL), RAIL, rows=20, columns=20))
+    with pytest.warns(PlausibilityWarning, match=r"pose.y = 0.03: a flange touches"):
+        solver.solve(Pose(y=0.03), FREE, load=8e4)
 
 
 def test_a_flat_is_passed_without_a_jump():
