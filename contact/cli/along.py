@@ -16,7 +16,7 @@ from rich.table import Table
 from contact.cli import arguments
 from contact.cli import options as opt
 from contact.cli.output import deliver, drawing, prepare, reported
-from contact.cli.problem import load_or_standard
+from contact.cli.problem import carried
 from contact.geometry.surfaces import Deviation, RailSurface, SurfacePair, WheelSurface
 from contact.geometry.surfaces.deviation import out_of_round
 from contact.pair import PairRun, solver_for
@@ -45,7 +45,6 @@ PolygonOf = Annotated[
     tuple[int, float] | None,
     opt.in_profiles("--polygon", help="out-of-roundness: order, amplitude in m", metavar="ORDER AMPLITUDE"),
 ]
-Vertical = Annotated[float | None, opt.in_loading(help="instead of a load: vertical force with friction in N")]
 
 
 @dataclass
@@ -80,7 +79,7 @@ def along(
     reading: arguments.Reading,
     way: Stations,
     load: opt.Load = None,
-    vertical: Vertical = None,
+    vertical: opt.Vertical = None,
     surface: arguments.SlidingFriction,
     normal: opt.Normal = "halfspace",
     tangential: Rolling = None,
@@ -107,10 +106,7 @@ def along(
     )
     motion: dict[str, Any] = {"station": np.linspace(way.begin, way.end, way.points), "velocity.x": place.speed}
     motion |= {"pose.y": place.y, "pose.roll": place.roll, "pose.yaw": place.yaw}
-    if vertical is None:
-        motion["load"] = load_or_standard(load)
-    else:
-        motion |= {"vertical": vertical} if load is None else {"vertical": vertical, "load": load}
+    motion |= carried(load, vertical)
     turned = -way.begin / place.radius if way.turned is None else way.turned  # it falls when rolling forward
     found = solver_for(pair, normal, tangential).run(motion, rotation=turned, friction=surface.law())
     deliver(

@@ -22,28 +22,40 @@ _NAMES = {
     "y radius gauge back_to_back left_radius reach amplitude penetration approach profile_smoothing "
     "profile_wavelength smoothing wavelength centre position rolling_radius length width radius_difference right_on_wheel "
     "right_on_rail right_radius left_on_wheel left_on_rail distance at mileage",
-    "rad": "rotation turned roll yaw angle contact_angle angle_difference right_angle left_angle",
+    "rad": "rotation turned profile_rotation pitch roll yaw angle contact_angle angle_difference right_angle left_angle",
     "m/s": "speed velocity",
-    "N": "load vertical Q Y N Fx Fy Fz fx fy preload force_x force_y normal_force T_gamma T_gamma_spin dissipation "
+    "N": "load vertical Q Y N Fx Fy Fz fx fy force preload force_x force_y normal_force T_gamma T_gamma_spin dissipation "
     "power_per_metre",
-    "N m": "Mz",
-    "Pa": "value pressure_limit max_pressure stress_index_max energy_index_max shear_modulus",
+    "N m": "Mz My torque",
+    "W": "power",
+    "Pa": "value pressure_limit max_pressure stress_index_max energy_index_max shear_modulus hardness shear_yield",
     "K": "temperature",
-    "m²": "area",
+    "m²": "area adhesion_area",
     "N/m": "normal_stiffness springs",
     "1/m": "curvatures spin nonlinearity",
     "m²/m": "pearce_sherratt",
     "m/m": "usfd archard_depth_max",
     "m³/m": "archard_volume",
-    "s": "seconds every duration",
+    "s": "seconds every duration time damping",
     "1": "friction inclination slip_ratio utilisation longitudinal lateral conicity slope share gap_error fatigue_index "
-    "burstow index",
+    "burstow index poisson_ratio coupling errors.force errors.moment errors.N errors.approach "
+    "errors.max_pressure errors.area errors.pressure",
     "1, 1, 1/m": "creepage",
     "m, m, rad": "shift",
     "Pa, -, Pa, -": "bodies",
     "m/Pa, Pa, Pa/m": "layer",
+    "m, m, m, rad, rad, rad": "wheel_offset",
+    "m, m/s": "friction_memory",
+    "-, 1, m/s": "falling",
+    "1, m, m": "gauge_friction",
+    "1, K, K": "hot",
+    "Pa, 1, 1": "endurance",
+    "1, m": "polygon",
 }
+#: A name with a point is that of a member: it goes before the name of the member alone.
 UNITS = {name: unit for unit, names in _NAMES.items() for name in names.split()}
+#: Units of names that mean another thing in some commands: the rotation of a wheel.
+_OF_COMMAND = dict.fromkeys(("rail", "roller", "in_time", "along"), {"spin": "rad/s", "creepage.spin": "1/m"})
 
 
 _RUNNING: ContextVar[tuple[str, dict[str, Any]]] = ContextVar("_RUNNING", default=("", {}))
@@ -75,7 +87,8 @@ def document(content: Mapping[str, Any]) -> str:
     command, given = _RUNNING.get()
     inputs = _plain({name: value for name, value in given.items() if name not in ("context", "as_json", "out")})
     results = _plain(dict(content))
-    units = {name: UNITS[name] for name in sorted({*_keys(inputs), *_keys(results)} & set(UNITS))}
+    known = UNITS | _OF_COMMAND.get(command, {})
+    units = {name: known[name] for name in sorted({*_keys(inputs), *_keys(results)} & set(known))}
     head = {"version": contact.__version__, "command": command, "inputs": inputs, "units": units}
     return json.dumps(head | results, indent=2, allow_nan=False, ensure_ascii=False)
 
@@ -97,14 +110,16 @@ def _plain(value: Any) -> Any:
     return str(value) if isinstance(value, Path) else value
 
 
-def _keys(value: Any) -> Iterator[str]:
+def _keys(value: Any, parent: str = "") -> Iterator[str]:
+    """Yield the names in a document, each also as a member of what holds it: ``spin`` and ``creepage.spin``."""
     if isinstance(value, dict):
         for key, inner in value.items():
             yield key
-            yield from _keys(inner)
+            yield f"{parent}.{key}"
+            yield from _keys(inner, key)
     elif isinstance(value, list):
         for inner in value:
-            yield from _keys(inner)
+            yield from _keys(inner, parent)
 
 
 def flat(row: Mapping[str, Any], before: str = "") -> dict[str, Any]:

@@ -13,12 +13,12 @@ import typer
 from contact.cli import arguments
 from contact.cli import options as opt
 from contact.cli.output import deliver, drawing, prepare, reported
-from contact.cli.problem import load_or_standard
+from contact.cli.problem import carried
 from contact.cli.report import show_curve
 from contact.errors import ContactError
 from contact.geometry.wheelset import Pair
 from contact.pair import ContactDamping, ElasticRail, FrictionMemory, WheelRailPair
-from contact.pair.motion import LOAD
+from contact.pair.motion import AMOUNTS, LOAD
 from contact.registry import DEFAULT_NORMAL, DEFAULT_TANGENTIAL
 
 _SHOWN = 25  # lines of the printed table
@@ -47,6 +47,7 @@ def in_time(
     reading: arguments.Reading,
     side: opt.Sides = opt.SideOption.right,
     load: opt.Load = None,
+    vertical: opt.Vertical = None,
     surface: arguments.SlidingFriction,
     friction_memory: Memory = None,
     damping: Damping = None,
@@ -59,7 +60,8 @@ def in_time(
 ) -> None:
     """Solve a wheel on a rail for each line of a file: time, and any inputs of the FMU WheelRailPair by their names.
 
-    Columns that the file does not have are those of the options; without pose.z the load is given.
+    Columns that the file does not have are those of the options; without a column pose.z, load,
+    vertical or penetration the load is that of the options.
 
     Example:  contact in-time motion.csv --falling exponential 0.15 0.5 --friction-memory 0.1 0.02 --out forces.png
     """
@@ -68,10 +70,14 @@ def in_time(
         raise ContactError("side = 'both': a motion is that of one wheel")
     columns = _read(motion)
     given = {"pose.y": place.y, "pose.roll": place.roll, "pose.yaw": place.yaw, "velocity.x": place.speed}
-    if "pose.z" not in columns:
-        given[LOAD] = load_or_standard(load)
-    elif load is not None:
-        raise ContactError(f"load = {load:g} and the column 'pose.z' exclude each other")
+    heights = [name for name in ("pose.z", LOAD, *AMOUNTS) if name in columns]
+    options = [f"--{name} {value:g}" for name, value in (("load", load), ("vertical", vertical)) if value is not None]
+    if heights and options:
+        raise ContactError(f"{options[0]} and the column {heights[0]!r} exclude each other")
+    if len(heights) > 1:
+        raise ContactError(f"{motion}: the columns {heights[0]!r} and {heights[1]!r} exclude each other")
+    if not heights:
+        given |= carried(load, vertical)
     law = surface.law()
     pair = Pair(
         reading.load(place.wheel, "wheel"),

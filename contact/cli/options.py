@@ -74,6 +74,10 @@ Load = Annotated[
         f"default {STANDARD_LOAD:g}"
     ),
 ]
+Vertical = Annotated[
+    float | None,
+    in_loading(help="instead of a load: vertical force in N that normal and friction forces carry together"),
+]
 Penetration = Annotated[float | None, in_loading(help="instead of a load: depth below first touch, or approach in m")]
 Friction = Annotated[float, in_loading(help="coefficient of friction")]
 Falling = Annotated[

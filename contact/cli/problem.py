@@ -155,6 +155,15 @@ def standard_load(load: float | None, penetration: float | None) -> float | None
     return load_or_standard(load) if penetration is None else load
 
 
+def carried(load: float | None, vertical: float | None) -> dict[str, float]:
+    """Return the argument of a pair: the load [N] of the normal forces alone, or the vertical force with friction."""
+    if vertical is None:
+        return {"load": load_or_standard(load)}
+    if load is not None:
+        raise ContactError(f"--load {load:g} and --vertical {vertical:g} exclude each other")
+    return {"vertical": vertical}
+
+
 def load_or_standard(load: float | None) -> float:
     """Return the load [N], `STANDARD_LOAD` if it is None, and tell the JSON of the command."""
     load = STANDARD_LOAD if load is None else load

@@ -11,7 +11,7 @@ from rich.table import Table
 from contact.cli import arguments
 from contact.cli import options as opt
 from contact.cli.output import deliver, prepare, reported
-from contact.cli.problem import standard_load
+from contact.cli.problem import carried
 from contact.geometry.flexible import WheelOffset
 from contact.geometry.wheelset import Pair, Velocity
 from contact.pair import ElasticRail, WheelRailPair
@@ -26,6 +26,7 @@ def rail(
     reading: arguments.Reading,
     side: opt.Sides = opt.SideOption.right,
     load: opt.Load = None,
+    vertical: opt.Vertical = None,
     surface: arguments.SlidingFriction,
     springs: opt.Springs = (math.inf, math.inf),
     preload: opt.Preload = (0.0, 0.0),
@@ -59,7 +60,7 @@ def rail(
         )
         solver = WheelRailPair(pair, normal=normal, tangential=tangential)
         velocity = Velocity(forward=place.speed, spin=spin)
-        options: dict[str, Any] = {"vertical": standard_load(load, None), "friction": surface.law(), "rail": elastic}
+        options: dict[str, Any] = {"friction": surface.law(), "rail": elastic, **carried(load, vertical)}
         options["offset"] = WheelOffset(*wheel_offset) if any(wheel_offset) else None
         options |= {"force": force, "torque": torque}
         s = solver.solve(case.pose, velocity, **options)

@@ -8,7 +8,7 @@ from contact.cli import arguments, report
 from contact.cli import options as opt
 from contact.cli.document import flat
 from contact.cli.output import deliver, drawing, prepare, reported
-from contact.cli.problem import Touch, standard_load
+from contact.cli.problem import Touch, carried
 from contact.geometry.records import Patch
 from contact.geometry.wheelset import Pair, Velocity
 from contact.pair import RollerRig
@@ -25,6 +25,7 @@ def roller(
     spin: opt.Spin = None,
     offset: opt.Offset = 0.0,
     load: opt.Load = None,
+    vertical: opt.Vertical = None,
     surface: arguments.SlidingFriction,
     normal: opt.Normal = DEFAULT_NORMAL,
     tangential: opt.Tangential = DEFAULT_TANGENTIAL,
@@ -47,7 +48,7 @@ def roller(
     )
     rig = RollerRig(pair, roller_radius, offset=offset, normal=normal, tangential=tangential)
     velocity = Velocity(forward=place.speed, spin=spin)
-    found = rig.solve(case.pose, velocity, vertical=standard_load(load, None), friction=surface.law())
+    found = rig.solve(case.pose, velocity, **carried(load, vertical), friction=surface.law())
     touches = [
         Touch(cast(Solution, one.solution), "right", cast(Patch, one.patch), k)
         for k, one in enumerate(found.contacts, 1)

@@ -31,8 +31,10 @@ _MEMBERS = {
     group: {f"{group}.{'x' if member.name == 'forward' else member.name}": member.name for member in fields(record)}
     for group, record in _RECORDS.items()
 }
-#: Columns that are arguments of `solve`. `load.normal_force` is the name of `vertical` in the FMU.
-_ARGUMENTS = {name: name for name in ("load", "penetration", "vertical", "force", "torque")} | {LOAD: "vertical"}
+#: What gives the height of a wheel.
+AMOUNTS = ("load", "penetration", "vertical")
+#: Columns that are arguments of `solve`. `load.normal_force` is the name of `load` in the FMU.
+_ARGUMENTS = {name: name for name in (*AMOUNTS, "force", "torque")} | {LOAD: "load"}
 NAMES = (*(name for members in _MEMBERS.values() for name in members), *_ARGUMENTS, COEFFICIENT)
 _OF_PATCH = ("angle", "approach", "N", "Fx", "Fy", "Mz", "max_pressure", "area", "gap_error")
 
@@ -112,7 +114,7 @@ class AnyPair(ABC):
             ``time`` [s], increasing, or ``station``, positions of the axle along the rail [m] in any order; both may be given.
             Then any inputs of the FMU `WheelRailPair` by their names: ``pose.y``, ``velocity.spin``, ``irregularity.z_rate``,
             ``offset.yaw``, ``friction.coefficient``, …, and the arguments ``load``, ``penetration``, ``vertical``, ``force``,
-            ``torque`` of `WheelRailPair.solve`; ``load.normal_force`` is another name for ``vertical``. What is not given is 0,
+            ``torque`` of `WheelRailPair.solve`; ``load.normal_force`` is another name for ``load``. What is not given is 0,
             but forward speed ``velocity.x`` is 1 m/s, the wheel rolls freely without ``velocity.spin``, and without a load
             ``pose.z`` is given.
         rotation : float

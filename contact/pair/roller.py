@@ -101,6 +101,7 @@ class RollerRig(AnyPair):
         pose: Pose,
         velocity: Velocity,
         *,
+        load: float | None = None,
         vertical: float | None = None,
         friction: float | Friction = 0.3,
     ) -> PairSolution:
@@ -113,8 +114,10 @@ class RollerRig(AnyPair):
         velocity : Velocity
             `forward` is the speed of the roller's surface at its radius [m/s], positive. `spin` is that of the wheel
             [rad/s], negative; the other rates are those of the wheelset.
+        load : float
+            Vertical load of the wheel [N], positive, that the normal forces alone carry; default: `pose.z` is given.
         vertical : float
-            Vertical force on the wheel [N], positive; default: `pose.z` is given.
+            Instead: vertical force on the wheel [N], positive, that normal and friction forces carry together.
         friction : float or contact.friction.Friction
 
         Returns
@@ -128,20 +131,23 @@ class RollerRig(AnyPair):
         """
         require_number("velocity.forward", velocity.forward, 0.0, open_minimum=True)
         surface = as_friction(friction)
-        if vertical is None:
+        if load is not None and vertical is not None:
+            raise ContactError(f"vertical = {vertical} excludes load = {load}")
+        if load is None and vertical is None:
             return self._at(pose, velocity, surface)
-        load = require_number("vertical", vertical, 0.0, open_minimum=True)
+        name, given = ("load", load) if vertical is None else ("vertical", vertical)
+        wanted = require_number(name, given, 0.0, open_minimum=True)
         found: PairSolution | None = None
 
         def residual(penetration: float) -> float:
             nonlocal found
             found = self._at(pose, velocity, surface, penetration)
-            left = found.Q - load
-            return 0.0 if abs(left) <= _TOLERANCE * load else left
+            left = (_of_normals(found) if vertical is None else found.Q) - wanted
+            return 0.0 if abs(left) <= _TOLERANCE * wanted else left
 
-        root = rising_root(residual, _START, load / _START, (0.0, _DEEPEST), shortest=_SHORTEST)
-        if found is None or abs(root.residual) > 1e-3 * load:
-            raise ContactError(f"vertical = {load:g}: no height was found at which the wheel carries it on this roller")
+        root = rising_root(residual, _START, wanted / _START, (0.0, _DEEPEST), shortest=_SHORTEST)
+        if found is None or abs(root.residual) > 1e-3 * wanted:
+            raise ContactError(f"{name} = {wanted:g}: no height was found at which the wheel carries it on this roller")
         return found
 
     def _on_roller(self, patch: Patch, velocity: Velocity) -> Patch:
@@ -187,3 +193,8 @@ class RollerRig(AnyPair):
         radius = self.pair.nominal_radius
         spin = -velocity.forward / radius if velocity.spin is None else velocity.spin
         return of_patches(found, pose, z, self.pair.side, radius, spin)
+
+
+def _of_normals(solution: PairSolution) -> float:
+    """Return the vertical part of the normal forces [N]."""
+    return sum(contact.N * math.cos(contact.angle) for contact in solution.contacts)

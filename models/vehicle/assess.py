@@ -109,13 +109,18 @@ def prudhomme(axle_load: float, share: float = 1.0) -> float:
     return share * (10e3 + axle_load / 3.0)
 
 
+def guiding(Y: Array) -> Array:
+    """Return ΣY, the force of a wheelset on both rails to the right [N], of Y of its right and its left wheel, outwards."""
+    return Y[0] - Y[1]
+
+
 def safety(lateral: Array, vertical: Array, distance: Array, time: Array, load: float) -> Safety:
     """Return the safety of one wheelset.
 
     Parameters
     ----------
     lateral, vertical : ndarray, shape (2, n)
-        Y and Q of the right and the left wheel [N].
+        Y, positive outwards, and Q of the right and the left wheel [N].
     distance, time : ndarray, shape (n,)
     load : float
         Static load of a wheel [N].
@@ -131,7 +136,7 @@ def safety(lateral: Array, vertical: Array, distance: Array, time: Array, load: 
     quotients = [sliding_mean(y / np.maximum(q, 1e-3 * load), distance) for y, q in zip(Y, Q, strict=True)]
     return Safety(
         quotient=float(np.abs(quotients).max()),
-        guiding=float(np.abs(sliding_mean(Y.sum(axis=0), distance)).max()),
+        guiding=float(np.abs(sliding_mean(guiding(Y), distance)).max()),
         prudhomme=prudhomme(2.0 * load),
         vertical=float(Q.max()),
         unloading=float(1.0 - Q.min() / load),

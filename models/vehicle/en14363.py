@@ -13,7 +13,7 @@ import numpy as np
 
 from contact.arrays import Array
 from ..life.track import Track
-from .assess import band_pass, low_pass, prudhomme, sliding_mean
+from .assess import band_pass, guiding, low_pass, prudhomme, sliding_mean
 
 #: Percentile of the largest values, and of quasi-static ones [%].
 LARGEST, QUASI_STATIC = 99.85, 50.0
@@ -57,7 +57,7 @@ class Values:
     guiding : percentile of |ΣY|, low-passed and meant over 2 m [N]
     quotient : percentile of |Y/Q| of both wheels, likewise
     vertical : percentile of Q of both wheels, low-passed [N]
-    Y_quasi_static, Q_quasi_static : medians of the outer wheel, Y to the inside [N]; nan on straight track
+    Y_quasi_static, Q_quasi_static : medians of the outer wheel, Y outwards [N]; nan on straight track
     instability : largest rms over 100 m of ΣY in the band of hunting [N]
     """
 
@@ -103,7 +103,7 @@ def values(section: Section, lateral: Array, vertical: Array, distance: Array, t
     ----------
     section : Section
     lateral, vertical : ndarray, shape (2, n)
-        Y and Q of the right and the left wheel [N].
+        Y, positive outwards, and Q of the right and the left wheel [N].
     distance, time : ndarray, shape (n,)
         Of the wheelset.
     load : float
@@ -118,30 +118,29 @@ def values(section: Section, lateral: Array, vertical: Array, distance: Array, t
     inside = (distance >= section.begin) & (distance <= section.end)
     quotients = [meant(y / np.maximum(q, 1e-3 * load)) for y, q in zip(Y, Q, strict=True)]
     outer = 1 if section.curvature > 0.0 else 0
-    inwards = math.copysign(1.0, section.curvature)
     curved = section.curvature != 0.0
     return Values(
-        guiding=float(np.percentile(np.abs(meant(Y.sum(axis=0))), LARGEST)),
+        guiding=float(np.percentile(np.abs(meant(guiding(Y))), LARGEST)),
         quotient=float(max(np.percentile(np.abs(each), LARGEST) for each in quotients)),
         vertical=float(max(np.percentile(each[inside], LARGEST) for each in Q)),
-        Y_quasi_static=inwards * float(np.percentile(Y[outer][inside], QUASI_STATIC)) if curved else math.nan,
+        Y_quasi_static=float(np.percentile(Y[outer][inside], QUASI_STATIC)) if curved else math.nan,
         Q_quasi_static=float(np.percentile(Q[outer][inside], QUASI_STATIC)) if curved else math.nan,
-        instability=_instability(lateral.sum(axis=0), distance, time, section),
+        instability=_instability(guiding(lateral), distance, time, section),
     )
 
 
-def _instability(guiding: Array, distance: Array, time: Array, section: Section) -> float:
+def _instability(sum_of_Y: Array, distance: Array, time: Array, section: Section) -> float:
     """Return the largest rms of ΣY in the band of hunting, over windows of the section [N]."""
     inside = (distance >= section.begin) & (distance <= section.end)
     even = np.linspace(time[inside][0], time[inside][-1], int(inside.sum()))
-    signal = np.interp(even, time, guiding)
+    signal = np.interp(even, time, sum_of_Y)
     power = np.abs(np.fft.rfft((signal - signal.mean()) * np.hanning(signal.size))) ** 2
     frequency = np.fft.rfftfreq(signal.size, even[1] - even[0])
     band = (frequency >= _HUNTING[0]) & (frequency <= _HUNTING[1])
     if not band.any():
         return math.nan
     strongest = float(frequency[band][np.argmax(power[band])])
-    filtered = band_pass(guiding, time, (max(strongest - _HALF_BAND, 0.1), strongest + _HALF_BAND))
+    filtered = band_pass(sum_of_Y, time, (max(strongest - _HALF_BAND, 0.1), strongest + _HALF_BAND))
     window = min(_RMS_WINDOW, section.end - section.begin)
     begins = np.arange(section.begin, section.end - window + 1e-9, _RMS_STEP)
     rms = [np.sqrt((filtered[(distance >= b) & (distance <= b + window)] ** 2).mean()) for b in begins]
@@ -150,12 +149,12 @@ def _instability(guiding: Array, distance: Array, time: Array, section: Section)
 
 def limits(load: float, radius: float) -> Values:
     """Return the limits of a wheelset with a static wheel load [N] in a radius [m], inf on straight track."""
-    guiding = prudhomme(2.0 * load)
+    largest = prudhomme(2.0 * load)
     return Values(
-        guiding=guiding,
+        guiding=largest,
         quotient=0.8,
         vertical=min(90e3 + load, Q_LARGEST),
         Y_quasi_static=30e3 + 10.5e6 / radius if math.isfinite(radius) else math.nan,
         Q_quasi_static=Q_QUASI_STATIC if math.isfinite(radius) else math.nan,
-        instability=0.5 * guiding,
+        instability=0.5 * largest,
     )

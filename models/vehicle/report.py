@@ -29,7 +29,7 @@ def page_of(run: VehicleRun) -> str:
     about = [
         f"{scenario.vehicle.name} over {d.length:g} m; damage of the first {d.recording.settling:g} m is not counted. Wheel "
         f"{scenario.wheel.name}, rail {scenario.rail.name}; {d.methods.normal} + {d.methods.tangential}.",
-        "Y is the force of the rail on the wheel to the right, Q that of the wheel on the rail downwards. Both, and T-gamma, "
+        "Y is the force of a wheel on its rail outwards, Q that downwards. Both, and T-gamma, "
         "are means between two samples. Each patch has its own plane.",
     ]
     return document(scenario.name, about, _parts(run))

@@ -44,7 +44,7 @@ BODY = {
     ),
 }
 WHEEL = {
-    "lateral_force": ("N", "Y, force of the rail on the wheel to the right; mean since the last sample"),
+    "lateral_force": ("N", "Y, force of the wheel on the rail outwards; mean since the last sample"),
     "vertical_force": ("N", "Q, force of the wheel on the rail downwards; mean since the last sample"),
     "longitudinal_force": ("N", "force of the rail on the wheel forwards; mean since the last sample"),
     "T_gamma": ("N", "T-gamma of all patches; mean since the last sample"),
@@ -255,10 +255,21 @@ class VehicleRun:
         felt = rates + turning - 9.81 * frames[:, TrackFrame.SIN_CANT]
         for i, q in enumerate(state.q):
             row += [q[Axis.Y], q[Axis.Z], q[Axis.ROLL], q[Axis.YAW], felt[i]]
-        for sums, wheel in zip(state.sums, simulation.wheels, strict=True):
-            means = sums[Sum.LATERAL : Sum.LEAST_LATERAL] / sums[Sum.STEPS]
-            row += [*means, wheel["angle"], wheel["creep_x"], wheel["creep_y"], wheel["pmax"], wheel["patches"]]
-            row += [*sums[Sum.LEAST_LATERAL :]]
+        for (_, side), sums, wheel in zip(self.scenario.wheel_names, state.sums, simulation.wheels, strict=True):
+            lateral, *means = sums[Sum.LATERAL : Sum.LEAST_LATERAL] / sums[Sum.STEPS]
+            least, largest, *vertical = sums[Sum.LEAST_LATERAL :]
+            if side == "right":  # the sums are those of the force on the wheel to the right, Y is outwards on the rail
+                lateral, least, largest = -lateral, -largest, -least
+            row += [
+                lateral,
+                *means,
+                wheel["angle"],
+                wheel["creep_x"],
+                wheel["creep_y"],
+                wheel["pmax"],
+                wheel["patches"],
+            ]
+            row += [least, largest, *vertical]
         state.sums[:] = 0.0
         self._before[:] = state.u
         self._rows.append(np.array(row))

@@ -114,8 +114,8 @@ def test_a_motion_is_solved_row_by_row(pair):
     pair.forget()
     for k in range(4):
         pose, velocity = Pose(y=MOTION["pose.y"][k]), Velocity(20.0, spin=SPIN[k])
-        offset, vertical = WheelOffset(yaw=UNDER_LOAD["offset.yaw"][k]), UNDER_LOAD["load.normal_force"][k]
-        s = pair.solve(pose, velocity, vertical=vertical, friction=0.2, offset=offset)
+        offset, load = WheelOffset(yaw=UNDER_LOAD["offset.yaw"][k]), UNDER_LOAD["load.normal_force"][k]
+        s = pair.solve(pose, velocity, load=load, friction=0.2, offset=offset)
         assert [found[name][k] for name in ("Fx", "Fy", "Fz")] == s.force.tolist()
         assert (found["Q"][k], found["Y"][k], found["z"][k], found["status"][k]) == (s.Q, s.Y, s.z, s.status)
         assert found["power"][k] == 20.0 * s.power_per_metre
@@ -137,7 +137,7 @@ def test_the_memory_lets_friction_follow_the_sliding_of_the_rows_before(pair):
         s = pair.solve(
             Pose(y=MOTION["pose.y"][k]),
             Velocity(20.0, spin=SPIN[k]),
-            vertical=UNDER_LOAD["load.normal_force"][k],
+            load=UNDER_LOAD["load.normal_force"][k],
             friction=memory.friction,
             offset=WheelOffset(yaw=UNDER_LOAD["offset.yaw"][k]),
         )

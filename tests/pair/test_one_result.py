@@ -46,7 +46,7 @@ def test_functions_of_earlier_versions_say_what_they_are_now():
         found = drive(pair, Pose(), Velocity(20.0), torque=1e3, vertical=6e4)
     assert found.spin == found.solution.spin
     with pytest.warns(DeprecationWarning, match=r"over_time is now WheelRailPair\.run"):
-        run = over_time(pair, {"time": [0.0], "load.normal_force": [6e4], "velocity.x": [20.0]})
+        run = over_time(pair, {"time": [0.0], "vertical": [6e4], "velocity.x": [20.0]})
     assert run["Q"] == pytest.approx([6e4], rel=1e-6)
     with pytest.warns(DeprecationWarning, match="passage is now run"):
         along = passage(WheelRailPair(SurfacePair(*PROFILES)), [0.0, 1e-3], Pose(y=1e-3), VELOCITY, load=6e4)

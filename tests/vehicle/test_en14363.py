@@ -28,7 +28,7 @@ def test_quasi_static_values_are_medians_of_the_outer_wheel_and_peaks_are_percen
     distance = np.arange(0.0, 400.0, 0.25)
     speed = 20.0
     wave = 5e3 * np.sin(2.0 * math.pi * 2.0 * distance / speed)  # 2 Hz
-    lateral = np.array([-1e4 * np.ones_like(distance), 3e4 + wave])
+    lateral = np.array([1e4 * np.ones_like(distance), 3e4 + wave])
     vertical = np.array([5e4, 7e4])[:, None] * np.ones_like(distance)
     section = Section(100.0, 300.0, 1.0 / 300.0, True)  # to the right: the left wheel is outside
     found = en14363.values(section, lateral, vertical, distance, distance / speed, 6e4)
@@ -49,7 +49,7 @@ def test_straight_track_has_no_quasi_static_values_and_a_mirrored_curve_has_the_
     assert math.isnan(straight.Y_quasi_static)
     assert math.isnan(straight.Q_quasi_static)
     right, left = (
-        en14363.values(Section(20.0, 280.0, sign / 500.0, True), sign * lateral[::order], vertical[::order], *given)
+        en14363.values(Section(20.0, 280.0, sign / 500.0, True), lateral[::order], vertical[::order], *given)
         for sign, order in ((1.0, 1), (-1.0, -1))
     )
     assert (right.guiding, right.instability) == pytest.approx((left.guiding, left.instability))

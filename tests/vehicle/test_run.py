@@ -222,7 +222,7 @@ def test_sliding_mean_of_a_straight_line_is_the_line_and_a_pulse_is_spread():
 
 def test_guiding_force_of_both_wheels_is_below_prudhommes_limit():
     s = np.linspace(0.0, 50.0, 201)
-    found = assess.safety(np.array([[2e4], [-5e3]]) * np.ones((2, 201)), 5e4 * np.ones((2, 201)), s, s / 20.0, 5.5e4)
+    found = assess.safety(np.array([[2e4], [5e3]]) * np.ones((2, 201)), 5e4 * np.ones((2, 201)), s, s / 20.0, 5.5e4)
     assert (found.quotient, found.guiding) == pytest.approx((0.4, 1.5e4))
     assert found.prudhomme == pytest.approx(1e4 + 1.1e5 / 3.0)
     assert found.unloading == pytest.approx(1.0 - 5.0 / 5.5)
@@ -352,3 +352,10 @@ def test_a_simulation_shows_every_wheel(whole):
     for wheel in whole.simulation.wheels:
         assert f"{1e-3 * wheel['vertical']:.4g}" in words(shown)
     assert sum(element.tag.endswith("rect") for element in parsed(shown)) == 2
+
+
+def test_lateral_forces_of_a_run_are_positive_outwards_on_both_wheels(whole):
+    """Conical wheels push their rails outwards: the normal forces of both treads spread the track."""
+    series = whole.series
+    for side in ("right", "left"):
+        assert series[f"wheelset_{side}_lateral_force"].mean() > 0.0
