@@ -55,7 +55,8 @@ _NAMES = {
 #: A name with a point is that of a member: it goes before the name of the member alone.
 UNITS = {name: unit for unit, names in _NAMES.items() for name in names.split()}
 #: Units of names that mean another thing in some commands: the rotation of a wheel.
-_OF_COMMAND = dict.fromkeys(("rail", "roller", "in_time", "along"), {"spin": "rad/s", "creepage.spin": "1/m"})
+_ROTATING = {"spin": "rad/s", "creepage.spin": "1/m"}
+_OF_COMMAND = dict.fromkeys(("rail", "roller", "in_time", "along"), _ROTATING)
 
 
 _RUNNING: ContextVar[tuple[str, dict[str, Any]]] = ContextVar("_RUNNING", default=("", {}))

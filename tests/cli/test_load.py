@@ -6,11 +6,11 @@ import pytest
 
 pytest.importorskip("typer")
 
-from contact.errors import ContactError  # noqa: E402
-from contact.geometry import profile  # noqa: E402
-from contact.geometry.wheelset import Pair, Pose, Velocity  # noqa: E402
-from contact.pair import RollerRig, WheelRailPair  # noqa: E402
-from tests.command_line import call  # noqa: E402
+from contact.errors import ContactError
+from contact.geometry import profile
+from contact.geometry.wheelset import Pair, Pose, Velocity
+from contact.pair import RollerRig, WheelRailPair
+from tests.command_line import call
 
 PAIR = Pair(profile.s1002(), profile.rail_60e1())
 AT = ("--y", 6.5e-3, "--friction", 0.35)
@@ -55,9 +55,9 @@ def test_two_amounts_exclude_each_other(tmp_path):
 def test_the_normal_forces_alone_carry_the_load_of_a_roller_rig():
     rig, at = RollerRig(PAIR, 0.6), (Pose(y=6.5e-3), Velocity(forward=20.0))
     by_load, by_force = rig.solve(*at, load=6e4), rig.solve(*at, vertical=6e4)
-    assert by_force.Q == pytest.approx(6e4, rel=1e-4)
+    assert abs(by_force.Q - 6e4) < 6.0
     assert abs(by_load.Q - 6e4) > 20.0
     frictionless = rig.solve(*at, load=6e4, friction=0.0)
-    assert frictionless.Q == pytest.approx(6e4, rel=1e-4)
+    assert abs(frictionless.Q - 6e4) < 6.0
     with pytest.raises(ContactError, match=r"vertical = 60000.0 excludes load = 60000.0"):
         rig.solve(*at, load=6e4, vertical=6e4)

@@ -23,7 +23,7 @@ WORDS = {
     "geometry": ("--max", 1e-3, "--step", 1e-3),
     "conicity": ("--amplitude", 1e-3, "--curve-radius", 300),
 }
-COUNTS = "n_patches patches patch points resolution reference_elements".split()
+COUNTS = ["n_patches", "patches", "patch", "points", "resolution", "reference_elements"]
 #: Members of results whose names mean different things → their units by command.
 ROTATION = {"rail": ("spin",), "roller": ("spin",), "in-time": ("spin",), "along": ("spin",)}
 #: What is written in a help text → the unit in JSON.
