@@ -1,10 +1,12 @@
 """The exception of the public API, the warnings, and the checks that raise them."""
 
+import contextlib
 import math
 import operator
 import sys
 import warnings
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Iterator
+from contextvars import ContextVar
 from difflib import get_close_matches
 from typing import Any, TypeVar
 
@@ -96,8 +98,23 @@ def doubt(name: str, value: float, limit: float, hint: str, *, least: float = 0.
     return doubtful
 
 
+_SILENT = ContextVar("silent", default=False)
+
+
+@contextlib.contextmanager
+def silent() -> Iterator[None]:
+    """Let `warn` do nothing, in this thread."""
+    before = _SILENT.set(True)
+    try:
+        yield
+    finally:
+        _SILENT.reset(before)
+
+
 def warn(text: str, kind: type[UserWarning] = PlausibilityWarning) -> None:
     """Warn at the line of the user's code that called this package."""
+    if _SILENT.get():
+        return
     level, frame = 1, sys._getframe()
     while frame.f_back and frame.f_globals.get("__name__", "").partition(".")[0] == "contact":
         level, frame = level + 1, frame.f_back

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from html import escape
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -131,6 +132,13 @@ class Separation:
         for array in self.samples:
             array.setflags(write=False)
         self.packed = Packed(Samples, self.samples)
+
+    def __getstate__(self) -> tuple[Any, ...]:
+        return self.y, self.g, self.A, self.x_c, self.tilt, self.rolling
+
+    def __setstate__(self, state: tuple[Any, ...]) -> None:
+        self.y, self.g, self.A, self.x_c, self.tilt, self.rolling = state
+        self._lay_out()
 
     def _repr_html_(self) -> str:
         """Return HTML with a sketch of the gap near its minimum, for a notebook."""

@@ -249,10 +249,16 @@ _Key = tuple[str, str, int, int, Material, bool, int, tuple[float, float, float]
 _LATEST, _MOST = threading.local(), 4
 
 
-def _prepared(key: _Key, friction: Friction, speed: float) -> Solver:
-    """Return this thread's solver for the methods, resolution, material and C11, C22, C23 of `key`; make it if needed."""
-    solvers: dict[_Key, Solver] = _LATEST.__dict__.setdefault("solvers", {})
-    solver = solvers.pop(key, None)
+def _solvers() -> dict[_Key, Solver]:
+    return _LATEST.__dict__.setdefault("solvers", {})
+
+
+def _lent(key: _Key, friction: Friction, speed: float) -> Solver:
+    """Lend this thread's solver for the methods, resolution, material and C11, C22, C23 of `key`; make it if needed.
+
+    Until it is back, a signal handler that calls `solve` makes another one.
+    """
+    solver = _solvers().pop(key, None)
     if solver is None:
         normal, tangential, n_strips, n_elements, material, conformal, max_iterations, coefficients = key
         solver = Solver(
@@ -269,10 +275,15 @@ def _prepared(key: _Key, friction: Friction, speed: float) -> Solver:
         if coefficients is not None:
             solver.calibrate(constant_table(*coefficients))
         solver.doubted = True  # by `solve`
+    return solver
+
+
+def _back(key: _Key, solver: Solver) -> None:
+    """Take back a solver that was lent."""
+    solvers = _solvers()
     solvers[key] = solver
     while len(solvers) > _MOST:
         del solvers[next(iter(solvers))]
-    return solver
 
 
 class _StripProblem(NamedTuple):
@@ -302,10 +313,10 @@ class _StripProblem(NamedTuple):
     ) -> Solution:
         """Return the solution. `coefficients` are C11, C22, C23 to use instead of those of linear theory."""
         key = self.normal, tangential, *self.size, self.material, self.conformal, self.max_iterations, coefficients
-        solver = _prepared(key, self.friction, self.speed)
-        if self.start is not None:
-            solver.start_from(self.start)
+        solver = _lent(key, self.friction, self.speed)
         try:
+            if self.start is not None:
+                solver.start_from(self.start)
             return solver.solve(
                 self.separation,
                 creepage,
@@ -321,6 +332,7 @@ class _StripProblem(NamedTuple):
         finally:
             if self.trace:
                 show(solver.trace())
+            _back(key, solver)
 
 
 def _rolling(

@@ -27,6 +27,7 @@ from contact.kernels.normal.strip_halfspace import MAX_ITERATIONS
 from contact.kernels.pipeline import solve_cases
 from contact.kernels.records import FORCE_SEARCH, RESULT
 from contact.material import STEEL, Material
+from contact.ownership import OwnsArrays, one_thread, within
 from contact.plausibility import doubt_alike, doubt_case, doubt_gap, doubt_strips
 from contact.registry import DEFAULT_NORMAL, DEFAULT_TANGENTIAL, Method, lookup
 from contact.separation import Separation
@@ -58,11 +59,11 @@ def require_conformal(tangential: Method) -> None:
         raise ContactError(f"conformal: tangential = {tangential.name!r} is only for a plane contact")
 
 
-class Solver:
+class Solver(OwnsArrays):
     """A prepared solver that owns its memory and can be called many times.
 
-    A call costs the compiled kernel and a few microseconds. Do not share a solver between threads; make one for each
-    thread. The results equal those of `contact.solve`.
+    A call costs the compiled kernel and a few microseconds. A solver serves one thread. A copy, by `copy.copy` or a pickle, has
+    memory of its own and starts from the same last solution. The results equal those of `contact.solve`.
 
     Parameters
     ----------
@@ -131,11 +132,21 @@ class Solver:
         self._two_cases, self._two_results = np.zeros(2, self._case.dtype), np.zeros(2, RESULT)
         self._search = np.zeros(1, FORCE_SEARCH)
         self._numbers = self._case.view(np.float64), self._result.view(np.float64)  # faster to copy than records
-        self.set_surface(friction, speed)
+        within(self.set_surface)(friction, speed)
         self._coefficients: NDArray[np.float64] | None = None
         self._full: Workspace
         self._forces_only: Workspace
         self._allocate(require_integer("n_samples", n_samples, 3))
+
+    def _kept(self) -> Any:
+        return (self._friction, self._speed), self._coefficients, self._full.space.memory.copy()
+
+    def _keep(self, kept: Any) -> None:
+        surface, coefficients, memory = kept
+        self.set_surface(*surface)
+        if coefficients is not None:
+            self.calibrate(coefficients)
+        self._full.space.memory[:] = memory
 
     def __repr__(self) -> str:
         return (
@@ -143,22 +154,26 @@ class Solver:
             f"friction {self._friction.static:g})"
         )
 
+    @one_thread
     def set_surface(self, friction: float | Friction, speed: float) -> None:
         """Set the friction [-] and the rolling speed [m/s] for the following calls that do not give their own."""
         surface, velocity = as_friction(friction), require_number("speed", speed, 0.0)
         self._friction, self._speed = surface, velocity
         set_surface(self._case, self._friction, self._speed)
 
+    @one_thread
     def forget(self) -> None:
         """Discard the last solution, so that the next call is a cold start even with `warm`."""
         self._full.space.memory[:] = 0.0
 
+    @one_thread
     def start_from(self, solution: Solution) -> None:
         """Start the next warm call from `solution`. A solution of another resolution is ignored."""
         memory = self._full.space.memory
         if solution.memory.size == memory.size:
             memory[:] = solution.memory
 
+    @one_thread
     def calibrate(self, table: NDArray[np.float64]) -> None:
         """Use `table` of creepage coefficients (`contact.theory.kalker.constant_table`) instead of that of linear theory."""
         self._coefficients = table
@@ -178,6 +193,7 @@ class Solver:
         self._forces_only = self._full._replace(fields=self._full.fields if needed else self._full.fields[:, :1].copy())
         self._packed_full, self._packed_forces_only = pack(Workspace, self._full), pack(Workspace, self._forces_only)
 
+    @one_thread
     def solve(
         self,
         separation: Separation,
@@ -238,6 +254,7 @@ class Solver:
         doubt_gap(float(self._result["gap_error"][0]), self.normal.gap_limit)
         return Solution.of_kernel(n, self._full, self._numbers, creepage, prepared, jacobian)
 
+    @one_thread
     def trace(self) -> str:
         """Return a table of the iterations of the last solution, for who must understand a status.
 
@@ -252,6 +269,7 @@ class Solver:
         status = Status(self._status[0]).name
         return f"{of_normal}\ntangential = {self.tangential.name!r}: no iterations; status {status}"
 
+    @one_thread
     def forces(
         self,
         separation: Separation,
@@ -296,7 +314,9 @@ class Solver:
         wanted = None if force is None else as_numbers(wanted_force(force))
         friction, speed = surface
         if (friction is not None and friction is not self._friction) or (speed is not None and speed != self._speed):
-            self.set_surface(self._friction if friction is None else friction, self._speed if speed is None else speed)
+            within(self.set_surface)(
+                self._friction if friction is None else friction, self._speed if speed is None else speed
+            )
         if not self.doubted:  # at the first call only, which may be one of millions
             self.doubted = True
             vector = creepage.longitudinal, creepage.lateral, creepage.spin

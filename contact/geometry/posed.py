@@ -11,6 +11,7 @@ from contact.geometry.records import Irregularity, Pose, Velocity
 from contact.kernels.enumerations import Height, NoAnswer
 from contact.kernels.geometry.settle import DEEPEST
 from contact.kernels.records import GIVEN
+from contact.ownership import OwnsArrays, one_thread
 from contact.plausibility import doubt_value
 
 Side = Literal["right", "left"]
@@ -20,7 +21,7 @@ LARGEST_SLIP = 0.55  # of a wheel that is driven or braked; `contact.pair.drive`
 _ROLLING, _IDEAL = Velocity(), Irregularity()
 
 
-class Posed:
+class Posed(OwnsArrays):
     """A wheel of one side with its nominal radius [m], 0.05 to 2.
 
     Raises
@@ -39,6 +40,7 @@ class Posed:
         self.nominal_radius = require_number("nominal_radius", nominal_radius, 0.05, 2.0)
         self._doubted = False
 
+    @one_thread
     def given(
         self,
         pose: Pose,

@@ -37,6 +37,7 @@ from contact.kernels.geometry.settle import first_touch, settle
 from contact.kernels.records import MAX_PATCHES, TAPE_FROM_FLANGE_BACK
 from contact.kernels.rows import Curve
 from contact.material import STEEL, Material
+from contact.ownership import one_thread, within
 from contact.separation import Separation
 
 __all__ = ["Irregularity", "Pair", "Patch", "Pose", "Velocity", "contacts"]
@@ -47,6 +48,8 @@ SAMPLES = 81
 
 class Pair(Posed):
     """One wheel on one rail, with all arrays prepared for use at every time step of a model.
+
+    It serves one thread. A copy, by `copy.copy` or a pickle, has arrays of its own.
 
     Parameters
     ----------
@@ -81,7 +84,7 @@ class Pair(Posed):
     profiles : (Profile, Profile)
         Wheel and rail, in the right-side convention.
     patches, separations : ndarray
-        Result of the last search on the right side: records PATCH, and rows `Sep` for each. Only one thread may search.
+        Result of the last search on the right side: records PATCH, and rows `Sep` for each.
     space : contact.kernels.arrays.Search
         All arrays of the search, as kernels use them.
 
@@ -127,6 +130,7 @@ class Pair(Posed):
         self.space.case["G"], self.space.case["nu"] = material.shear_modulus, material.poisson_ratio
         self.patches, self.separations = self.space.patches, self.space.separations
 
+    @one_thread
     def locate(
         self,
         pose: Pose,
@@ -141,11 +145,12 @@ class Pair(Posed):
         No Python objects are made for the patches.
         """
         mode, amount = self.prescribed(load, penetration)
-        move(self.given(pose, velocity, irregularity), self.space.motion[0])
+        move(within(self.given)(pose, velocity, irregularity), self.space.motion[0])
         n = settle(mode, amount, self.space)
         self.require_found(n, pose, load)
         return int(n)
 
+    @one_thread
     def contacts(
         self,
         pose: Pose,
@@ -156,13 +161,14 @@ class Pair(Posed):
         irregularity: Irregularity | None = None,
     ) -> tuple[Patch, ...]:
         """Return all patches, from the field side to the flange. See the function `contacts`."""
-        n = self.locate(pose, velocity, load=load, penetration=penetration, irregularity=irregularity)
+        n = within(self.locate)(pose, velocity, load=load, penetration=penetration, irregularity=irregularity)
         return tuple(self._patch(k, load is not None) for k in range(n))
 
+    @one_thread
     def touch(self, pose: Pose, irregularity: Irregularity | None = None) -> float:
         """Return z [m] at which the rigid wheel just touches the rail. The other coordinates are those of `pose`."""
         s = self.space
-        move(self.given(pose, None, irregularity), s.motion[0])
+        move(within(self.given)(pose, None, irregularity), s.motion[0])
         overlap, z = first_touch(s.wheel, s.rail, s.motion[0], s.line, s.placed)
         if not overlap:
             raise self._apart(pose)

@@ -17,6 +17,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 
@@ -35,6 +36,7 @@ from contact.halfspace.solution import GridSolution, assemble
 from contact.halfspace.solve import grid_of, status_of
 from contact.halfspace.tang import OFFSET, Tangential, rigid_slip
 from contact.material import STEEL, Material
+from contact.ownership import OwnsArrays, one_thread
 from contact.separation import Separation
 
 #: A step that Newton's iteration does not solve from the last traction is led there in this number of parts.
@@ -43,8 +45,10 @@ _PARTS = 5
 _TOLERANCE = 1e-7
 
 
-class Transient:
+class Transient(OwnsArrays):
     """A contact that is shifted and rolled in steps, with its traction.
+
+    It serves one thread. A copy, by `copy.copy` or a pickle, continues from the same traction.
 
     Parameters
     ----------
@@ -111,6 +115,13 @@ class Transient:
         self._normal = norm(grid.h, grid.dx, grid.dy, material, load=load)
         self.distance = 0.0
 
+    def _kept(self) -> Any:
+        return self._traction, self._normal, self.distance
+
+    def _keep(self, kept: Any) -> None:
+        self._traction, self._normal, self.distance = kept
+
+    @one_thread
     def shift(
         self, longitudinal: float = 0.0, lateral: float = 0.0, rotation: float = 0.0, *, load: float | None = None
     ) -> GridSolution:
@@ -134,6 +145,7 @@ class Transient:
         moved = Creepage(*(require_number(name, value) for name, value in numbers))
         return self._step(moved, 0.0, load, self.friction.static)
 
+    @one_thread
     def roll(self, creepage: Creepage, *, distance: float, load: float | None = None) -> GridSolution:
         """Roll by `distance` [m], and return the solution.
 

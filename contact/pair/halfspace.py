@@ -13,6 +13,7 @@ from contact.friction import Friction
 from contact.geometry.records import Irregularity, Pose, Velocity
 from contact.geometry.surfaces import SurfacePair, SurfacePatch
 from contact.kernels.enumerations import Height
+from contact.ownership import one_thread, within
 from contact.pair.motion import AnyPair
 from contact.pair.solution import PairSolution, Solved, of_patches
 from contact.pair.wheel_rail import WheelRailPair
@@ -49,8 +50,10 @@ class HalfspacePair(AnyPair):
     def __init__(self, pair: SurfacePair) -> None:
         if not isinstance(pair, SurfacePair):
             raise ContactError(f"pair = {pair!r} is not a contact.geometry.surfaces.SurfacePair")
-        self.pair = pair
+        self.pair = pair.again()
+        self._turn = self.pair._turn
 
+    @one_thread
     def solve(
         self,
         pose: Pose,
@@ -87,15 +90,15 @@ class HalfspacePair(AnyPair):
             raise ContactError(f"of {given} only one may be given")
         if vertical is not None:
             require_number("vertical", vertical, 0.0)
-        self.pair.place(pose, velocity, station=station, rotation=rotation, irregularity=irregularity)
+        within(self.pair.place)(pose, velocity, station=station, rotation=rotation, irregularity=irregularity)
         self.pair.doubt(pose, velocity, *((load,) if vertical is None else (vertical, "vertical")))
         if vertical is not None:
             return self._under(vertical, pose, velocity, friction)
         mode, amount = self.pair.prescribed(load, penetration)
         if mode != Height.LOAD:
-            return self._solution(self.pair.found(mode, amount), pose, velocity, friction)
-        missed = self.pair.settle(amount)
-        found = self._solution(self.pair.found(), pose, velocity, friction)
+            return self._solution(within(self.pair.found)(mode, amount), pose, velocity, friction)
+        missed = within(self.pair.settle)(amount)
+        found = self._solution(within(self.pair.found)(), pose, velocity, friction)
         return replace(found, status=Status.NOT_CONVERGED) if missed > _MISSED else found
 
     def _solution(
@@ -115,8 +118,8 @@ class HalfspacePair(AnyPair):
         """
         carried, before = vertical, None
         for step in range(_MOST_STEPS):
-            self.pair.settle(carried)
-            found = self._solution(self.pair.found(), pose, velocity, friction)
+            within(self.pair.settle)(carried)
+            found = self._solution(within(self.pair.found)(), pose, velocity, friction)
             miss = vertical - found.Q
             if abs(miss) <= (_TOLERANCE if step < _MOST_STEPS // 2 else _WIDER) * vertical:
                 return found

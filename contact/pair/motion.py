@@ -18,6 +18,7 @@ from contact.friction import Friction, as_friction
 from contact.geometry.flexible import WheelOffset
 from contact.geometry.posed import Posed
 from contact.geometry.records import Irregularity, Pose, Velocity
+from contact.ownership import OwnsArrays
 from contact.pair.contact_damping import ContactDamping
 from contact.pair.elastic_rail import ElasticRail
 from contact.pair.friction_memory import FrictionMemory
@@ -82,8 +83,11 @@ class PairRun(Mapping[str, Array]):
         return rows
 
 
-class AnyPair(ABC):
+class AnyPair(OwnsArrays, ABC):
     """Base class of `WheelRailPair`, `HalfspacePair` and `RollerRig`.
+
+    Each serves one thread, and has a copy of the pair that it is made of. A copy, by `copy.copy` or a pickle, has arrays of its
+    own and starts from the same last solution.
 
     Attributes
     ----------

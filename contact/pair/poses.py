@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import copy
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
@@ -161,7 +160,7 @@ def over_poses(
     done = np.zeros(count, np.int64)
 
     def work(thread: int) -> None:
-        copied = copy.deepcopy(pair)
+        copied = pair.again()
         bench, solve = copied.bench, copied.solve_given
         set_surface(bench.case, surface or Friction(0.0), 0.0)
         case = {name: bench.case[name] for name in ("speed", "mu", "kinetic")}

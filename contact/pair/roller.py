@@ -31,6 +31,7 @@ from contact.geometry.surfaces.frame import Frame
 from contact.geometry.wheelset import Pair
 from contact.given_force import rising_root
 from contact.material import STEEL, Material
+from contact.ownership import one_thread, within
 from contact.pair.motion import AnyPair
 from contact.pair.solution import PairSolution, Solved, of_patches
 from contact.registry import DEFAULT_NORMAL, DEFAULT_TANGENTIAL
@@ -83,7 +84,8 @@ class RollerRig(AnyPair):
     ) -> None:
         if not isinstance(pair, Pair):
             raise ContactError(f"pair = {pair!r} is not a contact.geometry.wheelset.Pair")
-        self.pair = pair
+        self.pair = pair.again()
+        self._turn = self.pair._turn
         self.radius = require_number("radius", radius, 0.05, 10.0)
         self.offset = require_number("offset", offset, -0.1 * radius, 0.1 * radius)
         between = self.radius + pair.nominal_radius
@@ -91,11 +93,13 @@ class RollerRig(AnyPair):
         self._options: dict[str, Any] = {"material": material, "normal": normal, "tangential": tangential}
         self._options |= {"n_strips": n_strips, "n_elements": n_elements}
 
+    @one_thread
     def contacts(self, pose: Pose, velocity: Velocity, *, penetration: float | None = None) -> tuple[Patch, ...]:
         """Return the patches on the roller. `velocity.forward` is the speed of the roller's surface at `radius` [m/s]."""
-        found = self.pair.contacts(replace(pose, z=pose.z - self._lower), velocity, penetration=penetration)
+        found = within(self.pair.contacts)(replace(pose, z=pose.z - self._lower), velocity, penetration=penetration)
         return tuple(self._on_roller(patch, velocity) for patch in found)
 
+    @one_thread
     def solve(
         self,
         pose: Pose,
@@ -178,7 +182,7 @@ class RollerRig(AnyPair):
         """Return the solution of the patches at their approach."""
         mirror = -1.0 if self.pair.side == "left" else 1.0
         found = []
-        for patch in self.contacts(pose, velocity, penetration=penetration):
+        for patch in within(self.contacts)(pose, velocity, penetration=penetration):
             coefficient = friction.placed(patch.on_rail[0], patch.angle, mirror)
             s = solve(
                 patch.separation,

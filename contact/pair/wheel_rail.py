@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
@@ -11,7 +10,6 @@ import numpy as np
 from contact import workspace
 from contact.case import cases, set_surface
 from contact.core import pack
-from contact.creepage import Creepage
 from contact.damage import DamageParameters
 from contact.errors import ContactError, require_number
 from contact.friction import Friction, as_friction
@@ -29,13 +27,15 @@ from contact.kernels.records import LARGEST_ANGLE
 from contact.kernels.rows import Moved
 from contact.material import STEEL, Material
 from contact.notebook import figures
+from contact.ownership import one_thread, turn_of, within
 from contact.pair.driven import drive
 from contact.pair.elastic_rail import ElasticRail
 from contact.pair.motion import AnyPair
-from contact.pair.solution import Contact, PairDamage, PairSolution
+from contact.pair.solution import PairSolution
+from contact.pair.solved import numbers, of_kernel
 from contact.plausibility import doubt_alike, doubt_gap
 from contact.registry import DEFAULT_NORMAL, DEFAULT_TANGENTIAL, lookup
-from contact.solution import PairJacobian, Status
+from contact.solution import PairJacobian
 from contact.solution.jacobian import columns_of_pair
 from contact.solve import solve
 from contact.solver import N_ELEMENTS, N_STRIPS, require_max_iterations, require_resolution
@@ -52,8 +52,7 @@ class WheelRailPair(AnyPair):
     Parameters
     ----------
     pair : contact.geometry.wheelset.Pair or contact.geometry.surfaces.SurfacePair
-        Profiles, or surfaces that change along the way, side, gauge, …, and the material of the search under a load. Do not
-        search with it elsewhere at the same time.
+        Profiles, or surfaces that change along the way, side, gauge, …, and the material of the search under a load.
     material : Material
         Material of the contact solution.
     normal, tangential : str
@@ -68,7 +67,8 @@ class WheelRailPair(AnyPair):
     damage : DamageParameters, optional
         Constants of the damage models.
     ledger : contact.kernels.arrays.Ledger, optional
-        Bins over both profiles in which `solve(…, distance=…)` adds up wear and damage. Not for surfaces.
+        Bins over both profiles in which `solve(…, distance=…)` adds up wear and damage. Not for surfaces. Pairs with the same
+        ledger serve one thread together.
 
     Attributes
     ----------
@@ -104,7 +104,10 @@ class WheelRailPair(AnyPair):
         for name, given, kind in (("material", material, Material), ("damage", damage, DamageParameters)):
             if not isinstance(given, kind | None):
                 raise ContactError(f"{name} = {given!r} is no {kind.__module__}.{kind.__name__}")
-        self.pair = pair
+        self.pair = pair.again()  # so that two of these can have one pair
+        if ledger is not None:
+            self.pair._turn = turn_of(ledger.bins)
+        self._turn = self.pair._turn
         self._methods: dict[str, Any] = {
             "normal": normal,
             "tangential": tangential,
@@ -120,7 +123,7 @@ class WheelRailPair(AnyPair):
         self._packed_aside: Any = None
         doubt_alike(material.coupling)
         arrays = workspace.allocate(method, rolling, material.poisson_ratio, size)
-        self.bench: Bench = workspace.bench(size, pair.space, arrays, ledger or workspace.closed_ledger())
+        self.bench: Bench = workspace.bench(size, self.pair.space, arrays, ledger or workspace.closed_ledger())
         self.bench.case[:] = cases(
             1, method, rolling, material, conformal=conformal, max_iterations=require_max_iterations(max_iterations)
         )
@@ -131,10 +134,13 @@ class WheelRailPair(AnyPair):
         self._rail, self._offset = _RIGID, _STRAIGHT
         self.bench.damage_parameters[:] = (damage or DamageParameters()).record(material, 1.0, 1.0)
 
-    def __getstate__(self) -> dict[str, Any]:
-        # two of its arrays share memory, which copies of arrays do not
-        return self.__dict__ | {"_aside": None, "_packed_aside": None}
+    def _kept(self) -> Any:
+        return self.bench.memory.copy()
 
+    def _keep(self, kept: Any) -> None:
+        self.bench.memory[:] = kept
+
+    @one_thread
     def forget(self) -> None:
         """Discard the last solution, so that the next call is a cold start.
 
@@ -142,6 +148,7 @@ class WheelRailPair(AnyPair):
         """
         self.bench.memory[:] = 0.0
 
+    @one_thread
     def solve(
         self,
         pose: Pose,
@@ -219,7 +226,7 @@ class WheelRailPair(AnyPair):
                 )
 
             def turning(velocity: Velocity) -> PairSolution:
-                return self.solve(
+                return within(self.solve)(
                     pose,
                     velocity,
                     station=station,
@@ -244,7 +251,8 @@ class WheelRailPair(AnyPair):
         self.bench.ledger.settings["distance"] = require_number("distance", distance, 0.0)
         self._set_rail(_RIGID if rail is None else rail)
         self._set_offset(_STRAIGHT if offset is None else offset)
-        given = self.pair.given(pose, velocity, irregularity, station=station, rotation=rotation + self._offset.pitch)
+        turned = rotation + self._offset.pitch
+        given = within(self.pair.given)(pose, velocity, irregularity, station=station, rotation=turned)
         set_surface(self.bench.case, as_friction(friction), float(given.vx))
         code = self._solve(mode, amount, given, self._packed)
         if code == NoAnswer.TURNED:
@@ -262,34 +270,15 @@ class WheelRailPair(AnyPair):
         else:
             self.pair.doubt(pose, velocity, vertical, "vertical")
         jacobian = self._derive(mode, given, load, penetration, vertical) if derivatives else None
-        total = _numbers(self.bench.total[0])
+        total = numbers(self.bench.total[0])
         doubt_gap(total.gap_error, self._gap_limit)
-        return PairSolution(
-            force=np.array([total.Fx, total.Fy, total.Fz]),
-            moment=np.array([total.Mx, total.My, total.Mz]),
-            Q=total.Q,
-            Y=total.Y,
-            Y_over_Q=total.Y_over_Q,
-            used_friction=total.used_friction,
-            z=total.z,
-            contacts=tuple(_contact(_numbers(row)) for row in self.bench.contacts[:code]),
-            max_pressure=total.pmax,
-            area=total.area,
-            slip_area=total.slip_area,
-            power_per_metre=total.power,
-            damage=PairDamage(*(getattr(total, name) for name in PairDamage._fields)),
-            status=Status(total.status),
-            gap_error=total.gap_error,
-            deflection=(float(self.bench.rail[0].dy), float(self.bench.rail[0].dz)),
-            spin=float(given.spin),
-            jacobian=jacobian,
-        )
+        return of_kernel(total, self.bench, code, float(given.spin), jacobian)
 
     def _derive(
         self, mode: int, given: np.record, load: float | None, penetration: float | None, vertical: float | None
     ) -> PairJacobian:
         """Return the derivatives of the last solution, labelled."""
-        aside = self.derive_given(mode, given)
+        aside = within(self.derive_given)(mode, given)
         amounts = {"load": load, "penetration": penetration, "vertical": vertical}
         name = next((name for name, amount in amounts.items() if amount is not None), None)
         shown = _ALL if name else _WITHOUT_AMOUNT
@@ -332,10 +321,12 @@ class WheelRailPair(AnyPair):
         draw = figures()
         return draw.position([draw.Wheel(self.pair.side, *self.pair.profiles, patches, solutions)], pose.roll)
 
+    @one_thread
     def solve_given(self, mode: int, amount: float, given: np.record) -> int:
         """Call the kernel for the record GIVEN of a motion and return its code. The result is in `bench`."""
         return int(self._solve(mode, amount, given, self._packed))
 
+    @one_thread
     def derive_given(self, mode: int, given: np.record) -> Aside:
         """Call the kernel of the derivatives of the last solution, of this motion. They are in what is returned."""
         constant = isinstance(self.pair, Pair)
@@ -359,31 +350,3 @@ class WheelRailPair(AnyPair):
                 raise ContactError(f"offset = {offset!r} is not a contact.geometry.flexible.WheelOffset")
             self.bench.offset[0] = offset.record()
             self._offset = offset
-
-
-def _numbers(row: np.record) -> SimpleNamespace:
-    """Return a record with numbers of Python: numpy takes 2 µs for each member, more than the kernel for all."""
-    return SimpleNamespace(**dict(zip(row.dtype.names or (), row.item(), strict=True)))
-
-
-def _contact(found: SimpleNamespace) -> Contact:
-    return Contact(
-        N=found.N,
-        Fx=found.Fx,
-        Fy=found.Fy,
-        Mx=found.Mx,
-        My=found.My,
-        Mz=found.Mz,
-        position=(found.x, found.y, found.z),
-        angle=found.angle,
-        area=found.area,
-        max_pressure=found.pmax,
-        creepage=Creepage(found.longitudinal, found.lateral, found.spin),
-        approach=found.approach,
-        on_rail=(found.rail_y, found.rail_z),
-        on_wheel=(found.wheel_y, found.wheel_z),
-        used_friction=found.used_friction,
-        status=Status(found.status),
-        gap_error=found.gap_error,
-        pitch=found.pitch,
-    )

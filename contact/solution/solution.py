@@ -197,10 +197,14 @@ class Solution:
 
     def __getattr__(self, name: str) -> Any:
         """Make friction, strips and fields from the kernel's arrays when one of them is first read."""
-        if "_left" not in self.__dict__:
+        held = self.__dict__
+        left = held.get("_left")
+        if left is not None:
+            held.update(_arrays(*left))
+            held.pop("_left", None)  # last, because another thread may read the solution too
+        if name not in held:
             raise AttributeError(f"{type(self).__name__!r} object has no attribute {name!r}")
-        self.__dict__.update(_arrays(*self.__dict__.pop("_left")))
-        return getattr(self, name)
+        return held[name]
 
     def __post_init__(self) -> None:
         """Make every array read-only and the owner of its memory."""

@@ -17,6 +17,7 @@ from contact.kernels.pipeline import press_case, set_rolling
 from contact.kernels.records import RESULT
 from contact.kernels.rows import Strip
 from contact.kernels.tangential.fastrip_mapped import roll_patch, set_shapes
+from contact.ownership import OwnsArrays, one_thread
 from contact.registry import lookup
 from contact.study import creep_table
 from contact.study.ellipse import ellipse
@@ -81,7 +82,7 @@ def neighbours(changes: Array) -> Array:
     return total / 8.0
 
 
-class OneEllipse:
+class OneEllipse(OwnsArrays):
     """The march on one ellipse of the table, with given creepages and exponent."""
 
     def __init__(self, log_aspect: float) -> None:
@@ -100,6 +101,7 @@ class OneEllipse:
         self.spin = set_shapes(0, self.n, space)
         self.case, self.own, self.strips, self.area = case[0], space, space.strips.copy(), float(self.result.area)
 
+    @one_thread
     def forces(self, creepage: Array, exponent: float) -> Array:
         """Return Fx/(mu N), Fy/(mu N), Mz/(mu N c) and the share of slip of the march, without the table's changes."""
         strips, result = self.own.strips, self.result

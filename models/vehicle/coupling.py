@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+import copy
 from collections.abc import Sequence
-from typing import Protocol
+from typing import Any, Protocol
 
 import numpy as np
 
@@ -11,6 +12,7 @@ from contact.arrays import Array
 from contact.core import pack
 from contact.errors import ContactError
 from contact.kernels.arrays import Motions
+from contact.ownership import OwnsArrays, one_thread
 from .kernels import motion
 from .kernels.frames import speed_at
 from .kernels.layout import Book, Model, Scratch, State
@@ -47,7 +49,7 @@ class Contact(Protocol):
         """Return the values of `ANSWER` for those of `QUESTION`. `step` is the time until the next question [s]."""
 
 
-class OpenVehicle:
+class OpenVehicle(OwnsArrays):
     """A vehicle that asks for the forces at its wheels.
 
     Parameters
@@ -62,7 +64,17 @@ class OpenVehicle:
             simulation.model, simulation.state, simulation.scratch, simulation.benches.motions
         )  # fmt: skip
         self._arguments = pack(Model, model), pack(State, state), pack(Motions, motions), pack(Scratch, scratch)
+        self._turn = simulation._turn
         self._late: Array | None = None  # answers to the questions of the step before
+
+    def __copy__(self) -> OpenVehicle:
+        return copy.deepcopy(self)  # with a simulation of its own
+
+    def _kept(self) -> Any:
+        return self._late
+
+    def _keep(self, kept: Any) -> None:
+        self._late = kept
 
     @property
     def wheels(self) -> tuple[tuple[str, str], ...]:
@@ -75,6 +87,7 @@ class OpenVehicle:
         """Time since the start [s]."""
         return self._simulation.time
 
+    @one_thread
     def ask(self) -> Array:
         """Return the questions at the present state, shape (wheels, len(QUESTION))."""
         motion.prepare_contacts(*self._arguments, self._speed)
@@ -82,6 +95,7 @@ class OpenVehicle:
         given = scratch.given.view(np.float64).reshape(scratch.given.size, -1)
         return np.column_stack((given, scratch.seats["friction"]))
 
+    @one_thread
     def move(self, answers: Array, h: float) -> None:
         """Advance by `h` [s] with the answers to the last questions, shape (wheels, len(ANSWER))."""
         wheels = self._simulation.scratch.wheels

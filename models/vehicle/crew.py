@@ -9,12 +9,13 @@ import numpy as np
 
 from contact.core import pack
 from contact.kernels.arrays import Bench, Search
+from contact.ownership import OwnsArrays, one_thread
 from .kernels import crew, motion
 from .kernels.benches import Benches
 from .kernels.layout import Model, Scratch, State
 
 
-class Crew:
+class Crew(OwnsArrays):
     """One thread, or several, that advance a vehicle.
 
     Parameters
@@ -38,6 +39,7 @@ class Crew:
         self._counters = np.zeros(crew.N_LINE, np.int64)
         self._codes = np.zeros(scratch.wheels.size, np.int64)
 
+    @one_thread
     def advance(self, h: float, steps: int) -> int:
         """Advance by `steps` steps of `h` [s]; return 0 or the code of `kernels.wheels.press`."""
         if not self._helpers:

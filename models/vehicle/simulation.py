@@ -21,6 +21,7 @@ from contact.kernels.enumerations import Height
 from contact.kernels.memory import Ledger
 from contact.kernels.records import GIVEN
 from contact.material import STEEL, Material
+from contact.ownership import OwnsArrays, one_thread
 from contact.pair import WheelRailPair
 from contact.registry import DEFAULT_NORMAL, DEFAULT_TANGENTIAL
 from contact.solver import N_ELEMENTS, N_STRIPS
@@ -60,8 +61,10 @@ class ContactOptions:
     tolerance: float = 7e-4
 
 
-class Simulation:
+class Simulation(OwnsArrays):
     """A vehicle that runs over a track.
+
+    It serves one thread. A copy, by `copy.copy` or a pickle, is in the same state.
 
     Parameters
     ----------
@@ -187,10 +190,10 @@ class Simulation:
                     if k < len(SIDES):
                         section.require_continued(wheel, rail, sizes)
                     surfaces = section.pair(uneven.get(k, wheel), rail, sizes)
-                    pieces.append(Stretch(self._solver(surfaces), surfaces, section.begin, section.end, section.at))
+                    pieces.append(Stretch(self._solver(surfaces), section.begin, section.end, section.at))
             if k in uneven:
                 surfaces = SurfacePair(uneven[k], rail, **sizes, tilted=True)
-                pieces.append(Stretch(self._solver(surfaces), surfaces))
+                pieces.append(Stretch(self._solver(surfaces)))
             if pieces:
                 found[k] = pieces
         return found
@@ -234,6 +237,13 @@ class Simulation:
         """
         solved = self._pairs[wheel].solve(Pose(), Velocity(speed), load=load, friction=self._friction)
         return solved.z
+
+    def _kept(self) -> Any:
+        return {name: array.copy() for name, array in self.kept.items()}
+
+    def _keep(self, kept: Any) -> None:
+        for name, array in self.kept.items():
+            array[:] = kept[name]
 
     def _repr_html_(self) -> str:
         """Return HTML for a notebook: place, time, and what every wheel does, with a sketch of the vertical forces."""
@@ -282,6 +292,7 @@ class Simulation:
             **self._uneven_memories,
         }
 
+    @one_thread
     def derive_contacts(self) -> tuple[Array, Array]:
         """Return force and moment of every wheel at the present state, and their derivatives by `scratch.given`.
 
@@ -310,6 +321,7 @@ class Simulation:
             forces[w] = [pair.bench.total[0][name] for name in ("Fx", "Fy", "Fz", "Mx", "My", "Mz")]
         return forces, jacobians
 
+    @one_thread
     def advance(self, h: float, steps: int = 1) -> None:
         """Advance by `steps` steps of `h` [s].
 

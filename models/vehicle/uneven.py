@@ -16,6 +16,7 @@ from contact.arrays import Array
 from contact.core import pack
 from contact.geometry.surfaces import SurfacePair
 from contact.kernels.arrays import Bench, Motions, Search, SurfaceSearch
+from contact.ownership import OwnsArrays, one_thread
 from contact.pair import WheelRailPair
 from .kernels import motion, wheels
 from .kernels.benches import Benches
@@ -27,13 +28,18 @@ class Stretch(NamedTuple):
     """A part of the way on which a wheel is solved on surfaces."""
 
     pair: WheelRailPair
-    surfaces: SurfacePair  # of the pair
     begin: float = -math.inf  # places of the axle [m]
     end: float = math.inf
     origin: float = 0.0  # place at which the station of the slices is 0 [m]
 
+    @property
+    def surfaces(self) -> SurfacePair:
+        """The surfaces of the pair."""
+        assert isinstance(self.pair.pair, SurfacePair)
+        return self.pair.pair
 
-class UnevenWheels:
+
+class UnevenWheels(OwnsArrays):
     """Advances a vehicle of which some wheels, or the rails at some places, are surfaces.
 
     Parameters
@@ -67,6 +73,7 @@ class UnevenWheels:
         self._solvers: dict[tuple[int, Stretch | None], Callable[[], int]] = {}
         self._moving = pack(Model, model), pack(State, state), pack(Motions, benches.motions), pack(Scratch, scratch)
 
+    @one_thread
     def advance(self, h: float, steps: int) -> int:
         """Advance by `steps` steps of `h` [s]; return 0 or the code of `kernels.wheels.press`."""
         model, state, _, scratch = self._arrays

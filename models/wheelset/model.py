@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from typing import Any
 
 import numpy as np
 
@@ -11,12 +12,13 @@ from contact.core import pack
 from contact.errors import ContactError, require_number
 from contact.geometry.wheelset import Pair
 from contact.kernels.records import GIVEN
+from contact.ownership import OwnsArrays, one_thread
 from . import dynamics, motion
 from .parameters import WheelsetParameters
 from .ports import POINTS, SIDES
 
 
-class WheelsetModel:
+class WheelsetModel(OwnsArrays):
     """One wheelset with contact forces as inputs.
 
     All outputs belong to the instant after the last `step`. `side` is "right" or "left".
@@ -67,8 +69,15 @@ class WheelsetModel:
             motion.begin(self._packed, p.lateral, p.yaw, p.lateral_velocity, p.yaw_rate, p.approach), self._memory
         )
 
+    def _kept(self) -> Any:
+        return self._memory.copy()
+
+    def _keep(self, kept: Any) -> None:
+        self._memory[:] = kept
+
     # inputs
 
+    @one_thread
     def set_forces(self, side: str, Fx: float, Fy: float, Mz: float, approach: float) -> None:
         """Set forces [N] and moment [N m] of a contact on the wheel, in its contact frame, and its approach [m].
 
@@ -79,6 +88,7 @@ class WheelsetModel:
         self._wheelset.approach[i] = require_number(f"{side}.approach", approach)
         self._wheelset.forces[i] = forces
 
+    @one_thread
     def set_irregularity(self, lateral: float, slope: float) -> None:
         """Set the lateral position [m] of the track's centre line below the wheelset, and its slope dy/dx [-]."""
         self._wheelset.irregularity[:] = (
@@ -88,6 +98,7 @@ class WheelsetModel:
 
     # motion
 
+    @one_thread
     def step(self, h: float) -> None:
         """Advance by `h` [s] with the forces held.
 
@@ -100,6 +111,7 @@ class WheelsetModel:
         before = self._memory.copy()
         self._require(motion.step(self._packed, h, self.parameters.substeps), before)
 
+    @one_thread
     def rates(self) -> Array:
         """Return the time derivatives of (lateral, yaw, lateral_velocity, yaw_rate, spin) under the present forces."""
         motion.balance(self._packed)
@@ -115,35 +127,43 @@ class WheelsetModel:
 
     # outputs
 
+    @one_thread
     def problem(self, side: str) -> Array:
         """Return the inputs of the contact of one side, in the order of `ports.PROBLEM`."""
         return self._wheelset.problems[SIDES.index(side)].copy()
 
+    @one_thread
     def frame(self, side: str) -> Array:
         """Return the contact origin x, y, z [m] relative to the wheelset's centre, and the contact angle [rad]."""
         return self._wheelset.frames[SIDES.index(side)].copy()
 
+    @one_thread
     def motion(self) -> Array:
         """Return the motion in the order of `ports.MOTION`."""
         return np.concatenate((self._wheelset.state, self._wheelset.height))
 
+    @one_thread
     def energy(self) -> Array:
         """Return the energies [J] in the order of `ports.ENERGY`."""
-        return np.append(self._wheelset.energy, self.mechanical_energy)
+        return np.append(self._wheelset.energy, motion.mechanical_energy(self._packed))
 
+    @one_thread
     def change(self) -> Array:
         """Return the rates of the last report in the order of `ports.CHANGE`."""
         return np.concatenate((self._wheelset.rates[dynamics.StateRow.LATERAL_VELOCITY :], self._wheelset.powers))
 
     @property
+    @one_thread
     def mechanical_energy(self) -> float:
         """Kinetic energy without that of V, energy of the springs, and potential energy of the weight [J] (10)."""
         return motion.mechanical_energy(self._packed)
 
+    @one_thread
     def save(self) -> bytes:
         """Return the whole state, including held inputs."""
         return self._memory.tobytes()
 
+    @one_thread
     def restore(self, state: bytes) -> None:
         """Restore a state from `save`. The following results are repeated bit by bit."""
         saved = np.frombuffer(state)

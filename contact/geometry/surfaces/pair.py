@@ -30,6 +30,7 @@ from contact.kernels.geometry.section import AWAY
 from contact.kernels.geometry.settle import DEEPEST
 from contact.kernels.records import MAX_PATCHES
 from contact.material import STEEL, Material
+from contact.ownership import one_thread, within
 
 Range = tuple[float, float, float, float]
 
@@ -92,7 +93,7 @@ class _Elements(NamedTuple):
 
 
 class SurfacePair(Posed):
-    """A wheel and a rail of which one or both change along the way.
+    """A wheel and a rail of which one or both change along the way. It serves one thread; a copy has arrays of its own.
 
     Parameters
     ----------
@@ -185,12 +186,14 @@ class SurfacePair(Posed):
     def _apart(self, pose: Pose) -> ContactError:
         return ContactError(f"pose.y = {pose.y:g}: the {self.side} wheel does not lie above its rail")
 
+    @one_thread
     def given(self, *args: Any, station: float = 0.0, **options: Any) -> np.record:
         """Return the motion as a record. Parameters as for `Posed.given`."""
-        made = super().given(*args, station=station, **options)
-        self.follow(station)
+        made = within(super().given)(*args, station=station, **options)
+        within(self.follow)(station)
         return made
 
+    @one_thread
     def follow(self, station: float) -> None:
         """Fill the table of the rail's deviations around `station` [m], for a kernel that is called without `given`."""
         compiled.follow(self._made[1], self.rail, station)
@@ -200,6 +203,7 @@ class SurfacePair(Posed):
         """pose.z of the last search [m]: as given, or as found for a load or a penetration."""
         return float(self.space.motion[0].z)
 
+    @one_thread
     def place(
         self,
         pose: Pose,
@@ -210,12 +214,14 @@ class SurfacePair(Posed):
         irregularity: Irregularity | None = None,
     ) -> None:
         """Place wheel and rail for `settle`, `carried` and `found`. Parameters as for `contacts`."""
-        move(self.given(pose, velocity, irregularity, station=station, rotation=rotation), self.space.motion[0])
+        given = within(self.given)(pose, velocity, irregularity, station=station, rotation=rotation)
+        move(given, self.space.motion[0])
         self._pose = pose
 
+    @one_thread
     def touch(self, pose: Pose, *, station: float = 0.0, rotation: float = 0.0) -> float:
         """Return z [m] at which the rigid wheel just touches the rail. Parameters as for `contacts`."""
-        self.place(pose, station=station, rotation=rotation)
+        within(self.place)(pose, station=station, rotation=rotation)
         self._search(Height.PENETRATION, 0.0)
         return self.z
 
@@ -225,6 +231,7 @@ class SurfacePair(Posed):
         self.require_found(n, self._pose, None)
         return int(n)
 
+    @one_thread
     def contacts(
         self,
         pose: Pose,
@@ -254,12 +261,13 @@ class SurfacePair(Posed):
             For input outside its range, if the wheel does not lie above the rail, or if no z gives the load.
         """
         mode, amount = self.prescribed(load, penetration)
-        self.place(pose, velocity, station=station, rotation=rotation, irregularity=irregularity)
+        within(self.place)(pose, velocity, station=station, rotation=rotation, irregularity=irregularity)
         if mode == Height.LOAD:
-            self.settle(amount)
+            within(self.settle)(amount)
             mode = Height.GIVEN
-        return self.found(mode, amount)
+        return within(self.found)(mode, amount)
 
+    @one_thread
     def settle(self, load: float) -> float:
         """Set the height at which the pressures of the half space carry a vertical load [N], and return its relative error.
 
@@ -273,7 +281,7 @@ class SurfacePair(Posed):
         tried: list[tuple[float, float]] = []
 
         def residual(depth: float) -> float:
-            force = self.carried(Height.PENETRATION, depth)
+            force = within(self.carried)(Height.PENETRATION, depth)
             tried.append((abs(force - load), self.z))
             return 0.0 if tried[-1][0] <= _LOAD_TOLERANCE * load else force ** (2.0 / 3.0) - target
 
@@ -285,6 +293,7 @@ class SurfacePair(Posed):
         missed, self.space.motion[0].z = min(tried)
         return missed / load
 
+    @one_thread
     def carried(self, mode: int = Height.GIVEN, amount: float = 0.0) -> float:
         """Return the vertical force of the pressures of the half space [N]. Parameters as for `found`."""
         total = 0.0
@@ -297,6 +306,7 @@ class SurfacePair(Posed):
                 total += share * float(p.sum()) * gap.dx * gap.dy * down
         return total
 
+    @one_thread
     def found(self, mode: int = Height.GIVEN, amount: float = 0.0) -> tuple[SurfacePatch, ...]:
         """Return the patches at the pose of the last `place`. `mode` and `amount` are those of `Posed.prescribed`."""
         made = ((k, self._elements(k)) for k in range(self._search(mode, amount)))
@@ -314,7 +324,7 @@ class SurfacePair(Posed):
             steps = _step(*box[:2], division.columns), _step(*box[2:], division.rows)
             division = division._replace(spacing=steps)
         centres = division.centres(box)
-        h = self.distance(frame, *centres)
+        h = within(self.distance)(frame, *centres)
         present = h < AWAY
         if not present.any() or not h[present].min() < 0.0:
             return None
@@ -325,7 +335,7 @@ class SurfacePair(Posed):
         """Return the range of a frame that the overlap fills, about in the range `box`; None without overlap."""
         for k in range(_PASSES):
             x, y = np.linspace(*box[:2], _POINTS), np.linspace(*box[2:], _POINTS)
-            inside = self.distance(frame, x, y) < 0.0
+            inside = within(self.distance)(frame, x, y) < 0.0
             if not inside.any():
                 return None
             (back, front), (low, high) = _around(x, inside.max(axis=0)), _around(y, inside.max(axis=1))
@@ -335,6 +345,7 @@ class SurfacePair(Posed):
                 break
         return box
 
+    @one_thread
     def distance(self, frame: Frame, x: Array, y: Array) -> Array:
         """Return rail minus wheel along the normal of a frame of the right side, shape (ny, nx) [m].
 
