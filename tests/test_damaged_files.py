@@ -15,6 +15,7 @@ from contact.cli import arguments, cases, options
 from contact.geometry import profile
 from contact.geometry.surfaces import RailSurface, WheelSurface
 from models.life import declared_set, scenario, track
+from models.life.measured import Measured
 from models.vehicle import declared as vehicle
 from tests import damaged
 
@@ -204,4 +205,4 @@ def test_a_damaged_series_of_measured_track(tmp_path):
     head = ",".join(("distance", *track.CHANNELS))
     rows = (",".join(f"{0.1 * k + c:g}" for c in range(1 + len(track.CHANNELS))) for k in range(20))
     path.write_text("\n".join((head, *rows)) + "\n")
-    survived(path, lambda: track._measured(str(path), np.linspace(0.0, 1.5, 7)), 100)
+    survived(path, lambda: Measured(file=str(path)).over(np.linspace(0.0, 1.5, 7)), 100)

@@ -13,11 +13,12 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from contact.arrays import Array
-from contact.errors import ContactError, require_number
+from contact.errors import ContactError, require_number, warn
 from contact.friction import Friction, as_friction
 from contact.geometry.flexible import WheelOffset
 from contact.geometry.posed import Posed
 from contact.geometry.records import Irregularity, Pose, Velocity
+from contact.geometry.surfaces import SurfacePair
 from contact.ownership import OwnsArrays
 from contact.pair.contact_damping import ContactDamping
 from contact.pair.elastic_rail import ElasticRail
@@ -151,6 +152,7 @@ class AnyPair(OwnsArrays, ABC):
         time = way.get(TIME)
         if STATION in way:
             along = way[STATION]
+            _doubt_stations(self.pair, along)
             way["rotation"] = require_number("rotation", rotation) - (along - along[0]) / self.pair.nominal_radius
         law = as_friction(friction)
         rows, solutions = [], []
@@ -232,6 +234,17 @@ def _columns(motion: Mapping[str, ArrayLike]) -> dict[str, Array]:
         if column.shape not in (shape, ()) or (column.shape == () and name in (TIME, STATION)):
             raise ContactError(f"motion: {name!r} has shape {column.shape}, {first!r} has {shape}")
     return {name: np.broadcast_to(column, shape) for name, column in columns.items()}
+
+
+def _doubt_stations(pair: Posed, along: Array) -> None:
+    """Warn of a way that leads past the slices of a rail: beyond them it is constant."""
+    if isinstance(pair, SurfacePair) and not pair.rail.sheet.constant:
+        first, last = pair.rail.sheet.u[[0, -1]].tolist()
+        if along.max() < first or along.min() > last:
+            warn(
+                f"station = {along.min():g} to {along.max():g}: the slices of the rail lie at {first:g} to {last:g} m; beyond "
+                "them it is constant"
+            )
 
 
 def _record(group: str, values: Mapping[str, float]) -> Any:

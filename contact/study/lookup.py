@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from contact.arrays import Array
-from contact.errors import ContactError, require_integer, suggestion
+from contact.errors import ContactError, require_integer, suggestion, warn
 from contact.pair import WheelRailPair, over_poses
 from contact.study.files import require_ending
 
@@ -87,7 +87,13 @@ class LookupTable:
             raise ContactError(f"at = {', '.join(at)}: the table has the axes {', '.join(self.axes)}")
         places, weights = [], []
         for name, points in self.axes.items():
-            x = np.clip(np.asarray(at[name], float), points[0], points[-1])
+            given = np.asarray(at[name], float)
+            x = np.clip(given, points[0], points[-1])
+            if (x != given).any():
+                beyond = given[x != given].flat[0]
+                warn(
+                    f"at: {name} = {beyond:g} is outside of the table, {points[0]:g} to {points[-1]:g}, and is cut to it"
+                )
             k = np.clip(np.searchsorted(points, x, side="right") - 1, 0, points.size - 2)
             places.append(k)
             weights.append((x - points[k]) / (points[k + 1] - points[k]))

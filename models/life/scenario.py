@@ -24,6 +24,7 @@ from ..vehicle.declared import VehicleDeclaration
 from ..vehicle.declared import read as read_vehicle
 from ..vehicle.sections import RailSection
 from ..vehicle.simulation import LONGEST_PACE, PACE, SIDES
+from . import reach
 from .declared import build, read_table
 from .slices import Rails
 from .torque import Torque
@@ -293,8 +294,8 @@ class Scenario:
         digest = hashlib.sha256(
             f"{version('wheelrail-contact')} {self.declared!r} {self.vehicle!r} {self.draw!r}".encode()
         )
-        if self.declared.track.measured is not None:
-            digest.update(Path(self.declared.track.measured).read_bytes())
+        if self.declared.track.series is not None:
+            digest.update(Path(self.declared.track.series.file).read_bytes())
         for shape in (self.wheel, self.rail, *self.every_wheel, *self.both_rails):
             for row in (shape.y, shape.z, shape.angle):
                 digest.update(row.tobytes())
@@ -321,11 +322,13 @@ def from_table(table: dict[str, Any], path: Path) -> Scenario:
     if isinstance(damage, dict) and not damage.keys() & {"wear_law", "archard"}:
         table = table | {"damage": damage | {"wear_law": WEAR_LAW}}
     declared = build(Declaration, table, path.name)
-    if declared.track.measured is not None:
-        measured = path.parent / declared.track.measured
-        if not measured.is_file():
-            raise ContactError(f"{path.name}.track.measured = {declared.track.measured!r} is no file beside it")
-        declared = replace(declared, track=replace(declared.track, measured=str(measured)))
+    series = declared.track.series
+    if series is not None:
+        beside = path.parent / series.file
+        if not beside.is_file():
+            raise ContactError(f"{path.name}.track.measured = {series.file!r} is no file beside it")
+        series = replace(series, file=str(beside))
+        declared = replace(declared, track=replace(declared.track, measured=series))
     try:
         wheel, rail = declared.profiles.load(path.parent)
         rails = declared.profiles.load_rails(path.parent)
@@ -337,7 +340,7 @@ def from_table(table: dict[str, Any], path: Path) -> Scenario:
     declared.wheels.require_axles(axles, f"{path.name}.wheels")
     for k, torque in enumerate(declared.torque):
         torque.require_axles(axles, f"{path.name}.torque[{k}]")
-    return Scenario(
+    found = Scenario(
         declared,
         wheel,
         rail,
@@ -346,3 +349,6 @@ def from_table(table: dict[str, Any], path: Path) -> Scenario:
         measured_wheels=declared.wheels.load(path.parent, f"{path.name}.wheels"),
         sections=declared.rails.load(path.parent, f"{path.name}.rails"),
     )
+    reach.require_series(found, path.name)
+    reach.doubt(found, path.name)
+    return found

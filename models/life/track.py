@@ -10,10 +10,8 @@ import numpy as np
 
 from contact.arrays import Array
 from contact.errors import ContactError, require_number
+from .measured import Measured
 from .spectra import CHANNELS, Irregularities
-
-RAIL_DISTANCE = 1.5  # distance of the rails' centres, over which cant is measured [m]
-_FARTHEST = 1e9  # distance or value of a measured series [m]; products of larger numbers overflow
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -90,9 +88,8 @@ class Track:
     alignment, vertical, cross_level, gauge : Irregularities, optional
         Random irregularities: of the centre line to the right, of its height downwards, of the angle by which the left rail
         lies higher, and of the gauge.
-    measured : str, optional
-        Station series instead: path of a CSV file with the columns distance, alignment, vertical, cross_level, gauge
-        [m, m, m, rad, m] in this order, with a line of headings.
+    measured : Measured or str, optional
+        Station series instead: a table, or the path of its file alone.
     friction : Friction, optional
     """
 
@@ -101,12 +98,14 @@ class Track:
     vertical: Irregularities | None = None
     cross_level: Irregularities | None = None
     gauge: Irregularities | None = None
-    measured: str | None = None
+    measured: Measured | str | None = None
     friction: Friction | None = None
 
     def __post_init__(self) -> None:
         if self.measured is not None and any(getattr(self, channel) for channel in CHANNELS):
             raise ContactError(f"measured = {self.measured!r} excludes random irregularities")
+        if isinstance(self.measured, str):
+            object.__setattr__(self, "measured", Measured(file=self.measured))
         ordered = sorted(self.curves, key=lambda curve: curve.start)
         for before, after in itertools.pairwise(ordered):
             if after.start < before.end:
@@ -116,17 +115,22 @@ class Track:
                 )
 
     @property
+    def series(self) -> Measured | None:
+        """The measured series."""
+        return None if isinstance(self.measured, str) else self.measured
+
+    @property
     def resolution(self) -> float:
         """Least distance of the stations of a measured track [m]; inf for others, whose waves are .5 m long or longer."""
-        return float(np.diff(_stations(self.measured)[:, 0]).min()) if self.measured is not None else math.inf
+        return self.series.resolution if self.series is not None else math.inf
 
     def channels(self, seed: tuple[int, ...], s: Array, settling: float) -> tuple[Array, ...]:
         """Return values and slopes of alignment, vertical, cross-level and gauge at the distances `s` [m], shape (2, n) each.
 
         They grow from zero over the first `settling` metres. The channels have independent random numbers.
         """
-        if self.measured is not None:
-            found = _measured(self.measured, s)
+        if self.series is not None:
+            found = self.series.over(s)
         else:
             found = [np.zeros((2, s.size)) for _ in CHANNELS]
             for k, channel in enumerate(CHANNELS):
@@ -142,38 +146,6 @@ class Track:
             return np.ones(s.size), np.ones(s.size)
         right, left = (np.interp(s, self.friction.at, each) for each in (self.friction.right, self.friction.left))
         return right, left
-
-
-def _stations(path: str) -> Array:
-    """Return the rows of a station series: distance and channels."""
-    try:
-        rows = np.loadtxt(path, delimiter=",", skiprows=1, ndmin=2)
-    except (OSError, ValueError) as error:
-        raise ContactError(f"measured = {path!r}: {error}") from None
-    if not (np.abs(rows) < _FARTHEST).all():
-        raise ContactError(f"measured = {path!r}: a distance or a value is not within {_FARTHEST:g} m")
-    if rows.shape[0] < 4 or rows.shape[1] != 1 + len(CHANNELS) or not (np.diff(rows[:, 0]) > 0.0).all():
-        raise ContactError(
-            f"measured = {path!r} needs the columns distance, {', '.join(CHANNELS)} and at least four rising distances"
-        )
-    return rows
-
-
-def _measured(path: str, s: Array) -> list[Array]:
-    """Return values and slopes of the channels of a station series at `s`, constant beyond its ends."""
-    rows = _stations(path)
-    inside = np.clip(s, rows[0, 0], rows[-1, 0])
-    slopes = np.gradient(rows[:, 1:], rows[:, 0], axis=0)
-    k = np.clip(np.searchsorted(rows[:, 0], inside, "right") - 1, 0, rows.shape[0] - 2)
-    width = rows[k + 1, 0] - rows[k, 0]
-    t = (inside - rows[k, 0]) / width
-    found = []
-    for c in range(len(CHANNELS)):  # Hermite's cubic with central differences as slopes
-        a, b, ma, mb = rows[k, 1 + c], rows[k + 1, 1 + c], width * slopes[k, c], width * slopes[k + 1, c]
-        second, third = 3.0 * (b - a) - 2.0 * ma - mb, 2.0 * (a - b) + ma + mb
-        value, slope = a + t * (ma + t * (second + t * third)), (ma + t * (2.0 * second + 3.0 * t * third)) / width
-        found.append(np.stack((value, np.where(inside == s, slope, 0.0))))
-    return found
 
 
 def _grown(s: float, over: float) -> tuple[float, float]:

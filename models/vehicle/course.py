@@ -9,7 +9,8 @@ import numpy as np
 
 from contact.arrays import Array
 from contact.errors import ContactError
-from ..life.track import RAIL_DISTANCE, Track
+from ..life.measured import RAIL_DISTANCE
+from ..life.track import Track
 from .kernels.layout import TrackRow
 
 SPACING = 0.05  # largest distance of the places of a track [m]
@@ -47,7 +48,7 @@ def lay(track: Track, length: float, speed: Callable[[float], float], seed: tupl
     whole, spacing = length + 2.0 * BEYOND, min(SPACING, track.resolution)
     if whole / spacing > MOST_PLACES:
         raise ContactError(
-            f"measured = {track.measured!r}: its closest stations are {spacing:.3g} m apart, which makes "
+            f"measured = {track.series and track.series.file!r}: its closest stations are {spacing:.3g} m apart, which makes "
             f"{whole / spacing:.3g} places on {whole:g} m; {MOST_PLACES} are allowed. Take stations at least "
             f"{whole / MOST_PLACES:.3g} m apart, or a shorter length"
         )

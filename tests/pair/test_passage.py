@@ -2,11 +2,13 @@
 
 import json
 import math
+import warnings
 
 import numpy as np
 import pytest
 
 from contact import ContactError
+from contact.errors import PlausibilityWarning
 from contact.geometry import profile
 from contact.geometry.surfaces import Flat, Polygon, RailSurface, SurfacePair, WheelSurface
 from contact.geometry.wheelset import Pose, Velocity
@@ -128,3 +130,20 @@ def test_a_wheel_goes_over_from_wing_rail_to_nose_without_a_jump():
     assert np.abs(np.diff(z)).max() < 3e-5  # 1 : 70 on 2 mm
     ahead = [c.position[0] for c in contacts[-1]]
     assert ahead[0] > 4e-3  # the nose rises, so the wheel touches it ahead of the axle
+
+
+def test_a_way_that_leads_past_the_slices_is_warned_of():
+    slices = RailSurface([0.0, 0.1], ramp())
+    pair = WheelRailPair(SurfacePair(WHEEL, slices, rail_origin=(0.75, 0.0)), normal="analyn")
+    motion = {"pose.y": 0.0, "velocity.x": 20.0, "penetration": 5e-5}
+    with pytest.warns(PlausibilityWarning, match=r"station = 12 to 12.1: the slices of the rail lie at 0 to 0.1 m"):
+        pair.run({"station": [12.0, 12.1], **motion})
+    with warnings.catch_warnings():
+        warnings.simplefilter("error", PlausibilityWarning)
+        pair.run({"station": [-0.05, 0.05], **motion})
+
+
+def ramp():
+    """Return two slices of the rail, the second one lower by .1 mm."""
+    points = np.column_stack((RAIL.y, RAIL.z))
+    return [points, points + np.array([0.0, 1e-4])]

@@ -38,6 +38,13 @@ def test_values_at_the_breakpoints_are_solutions(pair, table):
     assert between == pytest.approx(table.tables["Fx"][3, 1, :2].mean())
 
 
+def test_a_point_outside_of_the_table_is_cut_to_it_with_a_warning(table):
+    inside = {"y": AXES["y"][3], "load": 100e3}
+    with pytest.warns(UserWarning, match=r"at: longitudinal = -1 is outside of the table, -0.002 to .* is cut to it"):
+        cut = table.interpolated(**inside, longitudinal=-1.0)["Fx"]
+    assert cut == table.interpolated(**inside, longitudinal=-2e-3)["Fx"]
+
+
 def test_files_hold_breakpoints_and_tables_in_the_order_of_the_axes(table, tmp_path):
     for ending in ("mat", "npz", "csv"):
         table.write(tmp_path / f"t.{ending}")

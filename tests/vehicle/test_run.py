@@ -278,13 +278,15 @@ def test_rails_may_differ_and_are_mirrored(tmp_path):
 
 
 def test_a_measured_series_lies_beside_its_scenario_and_is_part_of_the_fingerprint(tmp_path):
-    text = 'name = "s"\nlength = 60.0\nspeed = 20.0\nvehicle = "wheelset"\n[track]\nmeasured = "t.csv"\n'
+    text = 'name = "s"\nlength = 40.0\nspeed = 20.0\nvehicle = "wheelset"\n[track]\nmeasured = "t.csv"\n'
     (tmp_path / "s.toml").write_text(text, encoding="utf-8")
     with pytest.raises(ContactError, match="is no file beside it"):
         read_scenario(tmp_path / "s.toml")
     prints = []
     for value in (0, 1):
-        (tmp_path / "t.csv").write_text("h\n" + "".join(f"{s},{value},0,0,0\n" for s in range(5)), encoding="utf-8")
+        (tmp_path / "t.csv").write_text(
+            "h\n" + "".join(f"{10 * s},{1e-3 * value},0,0,0\n" for s in range(5)), encoding="utf-8"
+        )
         prints.append(read_scenario(tmp_path / "s.toml").fingerprint)
     assert prints[0] != prints[1]
 

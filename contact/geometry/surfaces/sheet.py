@@ -59,6 +59,11 @@ class SplineSheet:
                 setattr(self, name, np.concatenate((values, values), axis=1))
 
     @property
+    def constant(self) -> bool:
+        """Whether it is the same at every u."""
+        return bool((self._f == self._f[:, :1]).all())
+
+    @property
     def paths(self) -> int:
         """Number of longitudinal paths m; v is in 0 … m-1."""
         return int(self.active.shape[1])
