@@ -15,7 +15,7 @@ from rich.table import Table
 
 from contact.cli import arguments
 from contact.cli import options as opt
-from contact.cli.output import deliver, drawing, prepare, reported
+from contact.cli.output import deliver, drawing, prepare, reported, require_trusted
 from contact.cli.problem import carried
 from contact.geometry.surfaces import Deviation, RailSurface, SurfacePair, WheelSurface
 from contact.geometry.surfaces.deviation import out_of_round
@@ -117,6 +117,7 @@ def along(
         rows=found.patches,
         figure=lambda: drawing().passage(found, f"{place.wheel} on {place.rail}"),
     )
+    require_trusted(found["status"].tolist(), "stations")
 
 
 def _wheel(name: str, reading: arguments.Reading) -> WheelSurface:

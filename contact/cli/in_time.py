@@ -12,7 +12,7 @@ import typer
 
 from contact.cli import arguments
 from contact.cli import options as opt
-from contact.cli.output import deliver, drawing, prepare, reported
+from contact.cli.output import deliver, drawing, prepare, reported, require_trusted
 from contact.cli.problem import carried
 from contact.cli.report import show_curve
 from contact.errors import ContactError
@@ -108,6 +108,7 @@ def in_time(
         rows=lambda: rows,
         figure=lambda: drawing().curve(time, curves, xlabel="time [s]", ylabel="force [kN]"),
     )
+    require_trusted(found["status"].tolist(), "rows")
 
 
 def _read(path: Path) -> dict[str, np.ndarray]:

@@ -16,6 +16,7 @@ from contact.cli.document import document, running
 from contact.cli.extras import EXTRAS, absent_modules
 from contact.cli.groups import expanded
 from contact.errors import ContactError, PlausibilityWarning
+from contact.solution import Status
 from contact.study.files import PICTURES, csv_of, require_ending, write
 
 #: Names in messages of the library → the options that set them, where the names differ.
@@ -29,13 +30,15 @@ _OPTIONS = {
     "velocity.forward": "speed",
     "speed": "speed",
 }
+#: Exit status of a command, besides 0.
+MISSING, BAD_INPUT, NOT_TRUSTED, INTERRUPTED = 1, 2, 3, 130
 Command = TypeVar("Command", bound=Callable[..., None])
 
 
 def reported(command: Command) -> Command:
     """Return the command with its groups of options, and with errors and warnings as messages on stderr.
 
-    The exit code is 2 for bad input and 1 for a missing extra.
+    The exit status is `BAD_INPUT` for these errors and `MISSING` for a missing extra.
     """
     command = expanded(command)
     name = command.__name__.removeprefix("list_")
@@ -48,11 +51,11 @@ def reported(command: Command) -> Command:
                 warnings.showwarning = _teller(kwargs)
                 command(*args, **kwargs)
         except ContactError as error:
-            stop(in_options(str(error), kwargs), 2)
+            stop(in_options(str(error), kwargs), BAD_INPUT)
         except ImportError as error:
             if "pip install 'wheelrail-contact[" not in str(error):
                 raise
-            stop(str(error), 1)
+            stop(str(error), MISSING)
 
     return wrapper  # type: ignore[return-value]
 
@@ -101,7 +104,7 @@ def drawing() -> Any:
     try:
         from contact import plot
     except ImportError as error:
-        stop(str(error), 1)
+        stop(str(error), MISSING)
     return plot
 
 
@@ -109,7 +112,7 @@ def require_extra(extra: str) -> None:
     """Exit with a message if an extra is not installed."""
     if absent := absent_modules(extra):
         names = f"{' and '.join(absent)} {'is' if len(absent) == 1 else 'are'} missing"
-        stop(f"{names} ({EXTRAS[extra][1]}): pip install 'wheelrail-contact[{extra}]'", 1)
+        stop(f"{names} ({EXTRAS[extra][1]}): pip install 'wheelrail-contact[{extra}]'", MISSING)
 
 
 def deliver(
@@ -157,8 +160,16 @@ def write_all(found: Any, paths: Sequence[Path]) -> None:
         try:
             found.write(path)
         except ImportError as error:
-            stop(str(error), 1)
+            stop(str(error), MISSING)
         typer.echo(f"wrote {path}", err=True)
+
+
+def require_trusted(statuses: Sequence[float], what: str) -> None:
+    """End the command with `NOT_TRUSTED` if one of the results, which are `what`, has no trustworthy status."""
+    doubtful = [Status(int(one)) for one in statuses if one > Status.SATURATED]
+    if doubtful:
+        names = ", ".join(sorted({one.name.lower().replace("_", " ") for one in doubtful}))
+        stop(f"{len(doubtful)} of {len(statuses)} {what} are not to be trusted: {names}", NOT_TRUSTED)
 
 
 def stop(message: str, code: int) -> NoReturn:

@@ -10,12 +10,13 @@ from rich.table import Table
 
 from contact.cli import arguments
 from contact.cli import options as opt
-from contact.cli.output import deliver, prepare, reported
+from contact.cli.output import deliver, prepare, reported, require_trusted
 from contact.cli.problem import carried
 from contact.geometry.flexible import WheelOffset
 from contact.geometry.wheelset import Pair, Velocity
 from contact.pair import ElasticRail, WheelRailPair
 from contact.registry import DEFAULT_NORMAL, DEFAULT_TANGENTIAL
+from contact.solution import Status
 from contact.study.table import number
 
 
@@ -78,6 +79,7 @@ def rail(
             }
         )
     deliver({"sides": rows}, show=lambda console: _show(rows, console), as_json=as_json, out=out, rows=lambda: rows)
+    require_trusted([Status[row["status"]] for row in rows], "wheels")
 
 
 def _show(rows: list[dict[str, Any]], console: Console) -> None:

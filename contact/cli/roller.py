@@ -7,7 +7,7 @@ from typing import Any, cast
 from contact.cli import arguments, report
 from contact.cli import options as opt
 from contact.cli.document import flat
-from contact.cli.output import deliver, drawing, prepare, reported
+from contact.cli.output import deliver, drawing, prepare, reported, require_trusted
 from contact.cli.problem import Touch, carried
 from contact.geometry.records import Patch
 from contact.geometry.wheelset import Pair, Velocity
@@ -63,3 +63,4 @@ def roller(
         rows=lambda: [flat(row) for row in patches],
         figure=lambda: drawing().patch([t.solution for t in touches], [t.name for t in touches]),
     )
+    require_trusted([touch.solution.status for touch in touches], "patches")

@@ -17,14 +17,14 @@ import typer
 
 from contact.cli import options as opt
 from contact.cli.document import document
-from contact.cli.output import drawing, reported, require_extra, stop
+from contact.cli.output import INTERRUPTED, MISSING, NOT_TRUSTED, drawing, reported, require_extra, stop
 from contact.cli.progress import progress_bar
 from contact.errors import ContactError
 from ..vehicle.run import VehicleRun
 from . import checkpoint, declared_set, scenario
 from .result import ENDINGS, write_series
 from .scale import Workers
-from .trust import Trust
+from .trust import NotTrusted, Trust
 from .wear import Life
 from .wear_log import WearLog, time_left
 
@@ -68,6 +68,7 @@ def run(
     if as_json:
         found = {"scenario": started.scenario.name, "step_error": asdict(started.step_error)}
         typer.echo(document({**found, **_results(folder, started.trust)}))
+    _require_reliable(started.trust)
 
 
 def _places(out: Path) -> tuple[Path, Path | None]:
@@ -107,10 +108,10 @@ def complete(started: VehicleRun, path: Path, fresh: bool, every: float) -> None
                     checkpoint.write(path, fingerprint, started.save())
                     written = time.monotonic()
         except KeyboardInterrupt:  # within a sample, so that only what is on disk is complete
-            stop(f"interrupted at {started.distance:.1f} m; {_resumable(path)}", 130)
+            stop(f"interrupted at {started.distance:.1f} m; {_resumable(path)}", INTERRUPTED)
         if not started.done:
             checkpoint.write(path, fingerprint, started.save())
-            stop(f"interrupted at {started.distance:.1f} m; the same command continues from {path}", 130)
+            stop(f"interrupted at {started.distance:.1f} m; the same command continues from {path}", INTERRUPTED)
 
 
 @contextmanager
@@ -146,8 +147,8 @@ def wear(
     """Compute the wear of wheels and rails over a mileage: run a set of scenarios, change the profiles, and repeat.
 
     If the command is interrupted, call it again: it continues from the last complete step. Each step prints a line, and result
-    and report are written anew. The result does not depend on the number of workers. It stops if the energy of a run does not
-    close to 2 % of its dissipation.
+    and report are written anew. The result does not depend on the number of workers. It stops with exit status 3 if the
+    energy of a run does not close to 2 % of its dissipation.
     """
     drawing()
     require_extra("xarray")
@@ -168,14 +169,17 @@ def wear(
                 if not life.ended and log.may_write:
                     log.wrote(lambda: _save(life, folder))
     except ImportError as missing:
-        stop(str(missing), 1)
+        stop(str(missing), MISSING)
     except KeyboardInterrupt:
-        stop(f"interrupted at {1e-3 * life.mileage:.0f} km; {_resumable(path)}", 130)
-    except ContactError:
+        stop(f"interrupted at {1e-3 * life.mileage:.0f} km; {_resumable(path)}", INTERRUPTED)
+    except ContactError as error:
         if life.mileage > 0.0:  # what has been found so far may show why
             _tell(life, folder, as_json)
+        if isinstance(error, NotTrusted):
+            stop(str(error), NOT_TRUSTED)
         raise
     _tell(life, folder, as_json)
+    _require_reliable(life.trust)
 
 
 def _tell(life: Life, folder: Path, as_json: bool) -> None:
@@ -224,6 +228,12 @@ def _warn(trust: Trust) -> None:
     """Print the warnings, each on a line of its own."""
     for sentence in trust.warnings:
         typer.echo(f"warning: {sentence}", err=True)
+
+
+def _require_reliable(trust: Trust) -> None:
+    """End the command with its own exit status if what it has written is not to be trusted. The warnings say why."""
+    if not trust.reliable:
+        raise typer.Exit(NOT_TRUSTED)
 
 
 def _write(folder: Path, dataset: Callable[[], Any], page: Callable[[], str]) -> None:

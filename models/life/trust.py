@@ -4,10 +4,13 @@ from __future__ import annotations
 
 from dataclasses import dataclass, fields
 
+from contact.errors import ContactError
 from contact.study.table import number
 
 #: A run whose energy does not close to this share of its dissipation is not to be believed.
 LARGEST_RESIDUAL = 0.02
+#: A run in which a larger share of the contacts has no trustworthy solution is not to be believed either.
+LARGEST_UNTRUSTED = 1e-3
 #: A rise of a normal force above this multiple of its static value is an impact.
 IMPACT = 2.0
 #: A wheel whose longitudinal creepage is larger spins or slides: its torque is more than friction bears.
@@ -25,7 +28,12 @@ TRUST = {
     "unfinished": ("1", "curves of the track that the run does not reach the end of"),
     "deepest_rate": ("1", "greatest depth that a wheel loses per distance, before smoothing"),
     "seizure": ("1", "share of the samples at which a wheel's pressure is in Archard's seizure; 0 with other laws"),
+    "untrusted_share": ("1", "share of the contacts without a trustworthy solution"),
 }
+
+
+class NotTrusted(ContactError):
+    """A study stops because a run is not to be trusted."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -41,11 +49,17 @@ class Trust:
     unfinished: float
     deepest_rate: float = 0.0
     seizure: float = 0.0
+    untrusted_share: float = 0.0
 
     @property
     def closes(self) -> bool:
         """True if the balance of energy closes to `LARGEST_RESIDUAL`."""
         return abs(self.residual) <= LARGEST_RESIDUAL
+
+    @property
+    def reliable(self) -> bool:
+        """False if the results are not to be trusted: the energy does not close, or many contacts have no solution."""
+        return self.closes and self.untrusted_share <= LARGEST_UNTRUSTED
 
     @property
     def warnings(self) -> tuple[str, ...]:
@@ -57,7 +71,12 @@ class Trust:
                 f"{100.0 * LARGEST_RESIDUAL:g} % are accepted. Forces, damage and wear of this run are not to be trusted."
             )
         if self.untrusted:
-            said.append(f"{self.untrusted:.0f} contacts have no trustworthy solution.")
+            many = (
+                f" These are {100.0 * self.untrusted_share:.2g} % of all, where at most {100.0 * LARGEST_UNTRUSTED:g} % are "
+                "accepted. This run is not to be trusted."
+            )
+            told = many if self.untrusted_share > LARGEST_UNTRUSTED else ""
+            said.append(f"{self.untrusted:.0f} contacts have no trustworthy solution.{told}")
         if self.lifted:
             said.append(f"A wheel lost contact with its rail {self.lifted:.0f} times.")
         if self.impacts:
@@ -141,4 +160,5 @@ def worst(runs: list[Trust]) -> Trust:
         unfinished=max(run.unfinished for run in runs),
         deepest_rate=max(run.deepest_rate for run in runs),
         seizure=max(run.seizure for run in runs),
+        untrusted_share=max(run.untrusted_share for run in runs),
     )

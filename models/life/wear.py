@@ -22,7 +22,7 @@ from .part import Part, Rail, Wheel
 from .reprofiling import cut, forecast
 from .scale import Workers
 from .scenario import Scenario
-from .trust import TRUST, Trust, worst
+from .trust import TRUST, NotTrusted, Trust, worst
 
 #: Column of the steps → unit and meaning. The first row is the unworn vehicle.
 COLUMNS = {
@@ -140,7 +140,7 @@ class Life:
         watch : callable
             Called with the number of runs done and the total number.
         go_on : bool
-            Wear the profiles also if the energy of a run does not close (`models.life.trust`).
+            Wear the profiles also if a run is not to be trusted (`models.life.trust`).
 
         Raises
         ------
@@ -151,10 +151,10 @@ class Life:
         declared, number = self.plan.declared, len(self.rows) - 1
         found = workers.map(outcome, [self._present(k, number) for k in range(len(self.plan.scenarios))], watch)
         trust = worst([each.trust for each in found])
-        if not trust.closes and not go_on:
-            at = found.index(max(found, key=lambda each: abs(each.trust.residual)))
-            raise ContactError(
-                f"{self.plan.name}: step {number + 1}, {self.plan.scenarios[at].name}: {trust.warnings[0]}"
+        if not trust.reliable and not go_on:
+            at = max(range(len(found)), key=lambda k: (not found[k].trust.reliable, abs(found[k].trust.residual)))
+            raise NotTrusted(
+                f"{self.plan.name}: step {number + 1}, {self.plan.scenarios[at].name}: {found[at].trust.warnings[0]}"
             )
         damage = self._damage(found)
         rates = {part.name: part.rate(damage[part.name], declared.steps.smoothing) for part in self.parts}

@@ -339,6 +339,7 @@ class VehicleRun:
                 default=0.0,
             ),
             seizure=self._seizure,
+            untrusted_share=float(books[Book.UNTRUSTED]) / max(self.steps * len(self.simulation.wheels), 1),
         )
 
     @property
