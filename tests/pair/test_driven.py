@@ -84,7 +84,7 @@ def test_bad_input_is_refused(pair, arguments, message):
 
 
 def test_the_command_line_finds_the_rotation_of_a_torque(pair):
-    words = ("rail", "--y", 2e-3, "--load", 7e4, "--torque", 5e3)
+    words = ("rail", "--y", 2e-3, "--vertical", 7e4, "--torque", 5e3)
     found = json.loads(call(*words, "--json").stdout)["sides"][0]
     wanted = pair.solve(Pose(y=2e-3), Velocity(20.0), torque=5e3, vertical=7e4)
     assert found["spin"] == pytest.approx(wanted.spin, rel=1e-6)

@@ -123,7 +123,7 @@ def test_bad_rails_are_refused(arguments, message):
 
 
 def test_the_command_line(pair):
-    words = ("rail", "--y", 6.5e-3, "--load", 6e4, "--springs", 8e6, 5e7)
+    words = ("rail", "--y", 6.5e-3, "--vertical", 6e4, "--springs", 8e6, 5e7)
     assert "lateral deflection" in call(*words).stdout
     import json
 
