@@ -189,6 +189,34 @@ function across(p, y) {
   return { a: Math.sqrt(p.A[i] ** 2 + t * (p.A[i + 1] ** 2 - p.A[i] ** 2)), x: mix(p.XC), i, next: i + 1, t, fall: 1 };
 }
 
+/* Zones in stick of strip `i`, as [from, to] in `s`, which falls from the leading edge: 1 and -1 are the edges. An element sticks or slides.
+   Between two of them lies the border b, where the margin to full friction ends: its square is (s - b) / (1 + s) in Carter's solution. */
+function stickZones(p, i, s) {
+  const first = i * p.m, zones = [], share = j => Math.hypot(p.QX[first + j], p.QY[first + j]) / p.P[first + j];
+  const sticks = j => j >= 0 && j < p.m && p.STICK[first + j] > 0.5;
+  const border = (inside, outside) => {
+    const before = 2 * inside - outside, full = share(outside), margin = j => (1 + s[j]) * (1 - share(j) / full) ** 2;
+    const part = sticks(before) ? margin(inside) / (margin(before) - margin(inside)) * (s[inside] - s[before]) / (s[outside] - s[inside]) : 0.5;
+    return s[inside] + (part >= 0 && part <= 1 ? part : part > 1 ? 1 : 0.5) * (s[outside] - s[inside]);
+  };
+  for (let j = 0; j < p.m; j++) {
+    if (!sticks(j)) continue;
+    if (!sticks(j - 1)) zones.push([j ? border(j, j - 1) : 1, -1]);
+    if (!sticks(j + 1) && j + 1 < p.m) zones[zones.length - 1][1] = border(j, j + 1);
+  }
+  return zones;
+}
+
+/* Zones at the share `t` of the way from one strip to the next. A zone that the other strip lacks ends there in a point, at the leading
+   edge if it begins there, since stick shrinks towards that edge. */
+function zonesBetween(one, other, t) {
+  const point = ([from, to]) => from === 1 ? [1, 1] : [(from + to) / 2, (from + to) / 2];
+  if (!one.length) one = other.map(point);
+  if (!other.length) other = one.map(point);
+  if (one.length !== other.length) return t < 0.5 ? one : other;
+  return one.map((zone, k) => zone.map((end, q) => (1 - t) * end + t * other[k][q]));
+}
+
 /* One canvas for all patches: `smooth` fills it, its caller copies it at once. It only grows. */
 let board;
 
@@ -211,7 +239,8 @@ function smooth(p, box, scale, shown, top) {
   }
   const values = Float64Array.from({ length: n * m }, (_, e) => shown.at(p, e)), unit = top > 0 ? 255 / top : 0;
   const grey = pixel(/^#(..)(..)(..)$/.exec(ink("stick")).slice(1).map(text => parseInt(text, 16)));
-  const strip = new Float64Array(m + 1), sticks = new Float64Array(m + 1); // m + 1: the last one twice
+  const strip = new Float64Array(m + 1); // m + 1: the last one twice
+  const zones = shown.sticks ? Array.from({ length: n }, (_, i) => stickZones(p, i, s)) : [];
   for (let column = 0; column < width; column++) {
     const place = across(p, box[0] + (column + 0.5) / scale);
     if (!place || !(place.a > 0)) continue;
@@ -219,15 +248,15 @@ function smooth(p, box, scale, shown, top) {
     for (let j = 0; j <= m; j++) {
       const k = Math.min(j, m - 1);
       strip[j] = fall * ((1 - t) * values[one + k] + t * values[other + k]);
-      if (shown.sticks) sticks[j] = (1 - t) * p.STICK[one + k] + t * p.STICK[other + k];
     }
+    const sticking = shown.sticks ? zonesBetween(zones[i], zones[next], t) : [];
     const half = a * scale, centre = (box[2] - x) * scale - 0.5; // row of the middle
     const low = Math.max(0, Math.ceil(centre - half + 1e-9)), high = Math.min(height - 1, Math.floor(centre + half - 1e-9));
     for (let row = low; row <= high; row++) {
       const at = (centre - row) / half, q = Math.round((at + 1) * 0.5 * places), j = first[q], u = share[q];
       const inside = half - Math.abs(centre - row); // pixels to the edge, which is smooth
       let rgba = grey;
-      if (!shown.sticks || (1 - u) * sticks[j] + u * sticks[j - 1] <= 0.5) {
+      if (!sticking.some(([from, to]) => at <= from && at >= to)) {
         const value = edge[q] * ((1 - u) * strip[j] + u * strip[j - 1]);
         rgba = PIXELS[value > 255 ? 255 : value < 0 ? 0 : (value + 0.5) | 0];
       }

@@ -144,7 +144,16 @@ function explanation(text, page) {
   return `<tr class="why"><td colspan="3">${text}${link}</td></tr>`;
 }
 
+/* What stays in sight below the patch on a narrow screen: the first method's results with these symbols. */
+const BRIEF = [["force.x", "Fx "], ["force.y", "Fy "], ["pressure.max", ""], ["patches.area", ""]];
+
+function brief(answer) {
+  const value = ([name, symbol]) => `${symbol}${short(bundle.variables[name].factor * solvers[0].get(name), 3)} ${bundle.variables[name].unit}`;
+  return answer.failed ? answer.text : BRIEF.map(value).join(" · ") + (answer.untrusted ? ` (${answer.text})` : "");
+}
+
 function numbers(found) {
+  $("brief").textContent = brief(found[0]);
   const names = state.methods.map(method => `${method.normal} + ${method.tangential}`);
   const head = names.map((name, k) => `<th class="${k ? "second" : "first"}">${name}</th>`).join("");
   const row = (title, cells, kind = "", name = "") => `<tr><th>${title}${name && ` <button class="ask" data-why="${name}" type="button" aria-expanded="${explained.has(name)}" aria-label="explain ${title}">?</button>`}</th>${cells.map(cell => `<td class="${kind} ${cell[1] ?? ""}">${cell[0]}</td>`).join("")}</tr>`;

@@ -198,6 +198,32 @@ def test_nothing_is_cut_off_on_a_phone(page, browser):
     assert tab.evaluate("document.documentElement.scrollWidth") <= 380
 
 
+def test_on_a_phone_the_main_results_stay_in_sight_while_the_sliders_are_moved(page, browser):
+    tab, _ = _open(browser, page, "", width=380)
+    tab.evaluate("document.querySelector('#inputs input:last-of-type').scrollIntoView({block: 'end'})")
+    box = tab.locator("#brief").bounding_box()
+    assert box["y"] >= 0.0
+    assert box["y"] + box["height"] <= 900.0
+    before = tab.inner_text("#brief")
+    assert f"{float(tab.evaluate('+(solvers[0].get(`pressure.max`) / 1e6).toPrecision(3)')):.0f} MPa" in before
+    tab.evaluate("state.values['pose.y'] = 5; dirty = true")
+    tab.wait_for_function(f"document.querySelector('#brief').textContent !== {json.dumps(before)}")
+
+
+def test_the_border_of_stick_follows_carter_between_the_elements(page, browser):
+    """A strip of 20 elements with Carter's traction: q / (mu p) is 1 from the border to the trailing edge."""
+    tab, _ = _open(browser, page, "")
+    found = tab.evaluate(
+        """(() => {
+          const m = 20, border = -0.233, s = Array.from({ length: m }, (_, j) => 1 - (2 * j + 1) / m);
+          const half = (1 - border) / 2, centre = (1 + border) / 2, root = x => Math.sqrt(Math.max(0, x));
+          const P = s.map(x => root(1 - x * x)), QX = s.map((x, j) => P[j] - root(half * half - (x - centre) ** 2));
+          return stickZones({ m, P, QX, QY: s.map(() => 0), STICK: s.map(x => x > border ? 1 : 0) }, 0, s);
+        })()"""
+    )
+    assert found == [[1, pytest.approx(-0.233, abs=1e-9)]]  # elements are .1 wide
+
+
 def test_an_own_profile_is_used_and_a_broken_one_is_refused(page, browser, tmp_path):
     tab, _ = _open(browser, page, "pose.y=2")
     wheel = profile.s1002()
