@@ -4,7 +4,6 @@ The methods follow M. Sh. Sichani, "On Efficient Modelling of Wheel-Rail Contact
 2016. All quantities are in SI units. Forces act on the wheel. Start with `solve`.
 """
 
-import sys
 from typing import TYPE_CHECKING, Any
 
 from contact.citation import cite
@@ -15,7 +14,6 @@ from contact.forces import forces
 from contact.halfspace.third_body import ThirdBody
 from contact.halfspace.transient import Transient
 from contact.material import STEEL, Material
-from contact.moved import MovedModule
 from contact.registry import Method, Methods, methods
 from contact.separation import Separation
 from contact.solution import Forces, Solution, Status, Strips
@@ -57,8 +55,6 @@ __all__ = [
     "methods",
     "solve",
 ]
-
-sys.meta_path.append(MovedModule())
 
 
 def __getattr__(name: str) -> Any:

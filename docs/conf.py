@@ -14,7 +14,6 @@ ROOT = Path(__file__).resolve().parents[1]
 sys.path[:0] = [str(ROOT), str(ROOT / "docs")]
 
 import generated  # noqa: E402
-import moved  # noqa: E402
 
 import contact  # noqa: E402
 
@@ -86,13 +85,7 @@ def _append_generated(app: Sphinx, page: str, source: list[str]) -> None:
         source[0] += subprocess.run(command, check=True, capture_output=True, text=True).stdout
 
 
-def _write_stubs(app: Sphinx, error: Exception | None) -> None:
-    if error is None and app.builder.name == "html":
-        moved.stubs(Path(app.outdir))
-
-
 def setup(app: Sphinx) -> None:
     app.connect("autodoc-process-docstring", _escape_bars, priority=400)  # before numpydoc
     app.connect("autodoc-skip-member", _is_alias)
     app.connect("source-read", _append_generated)
-    app.connect("build-finished", _write_stubs)

@@ -6,9 +6,6 @@ penetration, a force, a torque. `run` takes a motion over time or along the way.
 """
 
 from contact.pair.contact_damping import ContactDamping
-from contact.pair.earlier import drive as drive
-from contact.pair.earlier import over_time as over_time
-from contact.pair.earlier import passage as passage
 from contact.pair.elastic_rail import ElasticRail
 from contact.pair.friction_memory import FrictionMemory
 from contact.pair.halfspace import HalfspacePair, solver_for

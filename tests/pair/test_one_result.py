@@ -1,12 +1,11 @@
-"""Pairs on strips, by the half space and on a roller give one kind of result; names of earlier versions still work."""
+"""Pairs on strips, by the half space and on a roller give one kind of result."""
 
-import numpy as np
 import pytest
 
 from contact.geometry import profile
 from contact.geometry.surfaces import SurfacePair
 from contact.geometry.wheelset import Pair, Pose, Velocity
-from contact.pair import HalfspacePair, RollerRig, WheelRailPair, drive, over_time, passage
+from contact.pair import HalfspacePair, RollerRig, WheelRailPair
 
 PROFILES = profile.s1002(), profile.rail_60e1()
 POSE, VELOCITY = Pose(y=-2e-3, yaw=1e-3), Velocity(10.0, spin=-21.75)
@@ -38,16 +37,3 @@ def test_strips_and_half_space_agree_in_every_number():
         assert getattr(exact, name) == pytest.approx(getattr(strips, name), rel=0.15), name
     assert exact.contacts[0].solution.normal == "halfspace"
     assert exact.contacts[0].used_friction == pytest.approx(strips.contacts[0].used_friction, abs=0.01)
-
-
-def test_functions_of_earlier_versions_say_what_they_are_now():
-    pair = WheelRailPair(Pair(*PROFILES))
-    with pytest.warns(DeprecationWarning, match=r"drive is now WheelRailPair\.solve"):
-        found = drive(pair, Pose(), Velocity(20.0), torque=1e3, vertical=6e4)
-    assert found.spin == found.solution.spin
-    with pytest.warns(DeprecationWarning, match=r"over_time is now WheelRailPair\.run"):
-        run = over_time(pair, {"time": [0.0], "vertical": [6e4], "velocity.x": [20.0]})
-    assert run["Q"] == pytest.approx([6e4], rel=1e-6)
-    with pytest.warns(DeprecationWarning, match="passage is now run"):
-        along = passage(WheelRailPair(SurfacePair(*PROFILES)), [0.0, 1e-3], Pose(y=1e-3), VELOCITY, load=6e4)
-    np.testing.assert_array_equal(along["station"], [0.0, 1e-3])
