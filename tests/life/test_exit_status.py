@@ -14,7 +14,7 @@ from models.vehicle import report
 from models.vehicle.run import VehicleRun
 from tests.command_line import call
 from tests.life.short_set import written
-from tests.life.test_trust import BAD, GOOD
+from tests.life.trusts import BAD, GOOD
 
 
 def run(command, *words):

@@ -10,16 +10,14 @@ from contact.errors import ContactError
 from models.life import commands, declared_set, result, scenario
 from models.life.declared_set import Steps
 from models.life.scale import Workers
-from models.life.trust import TRUST, Trust, worst
+from models.life.trust import TRUST, worst
 from models.life.wear import Life
 from models.vehicle import report
 from models.vehicle.kernels.layout import Book
 from models.vehicle.kernels.wheels import count
 from models.vehicle.run import VehicleRun
 from tests.life.short_set import written
-
-GOOD = Trust(residual=0.001, impacts=0.0, lifted=0.0, untrusted=0.0, creepage=0.01, speed_ratio=0.5, unfinished=0.0)
-BAD = Trust(residual=-0.49, impacts=3.0, lifted=2.0, untrusted=7.0, creepage=3.0, speed_ratio=1.2, unfinished=1.0)
+from tests.life.trusts import BAD, GOOD
 
 
 def test_a_good_run_has_no_warning_and_a_bad_one_names_every_fault():
