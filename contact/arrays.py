@@ -1,6 +1,96 @@
-"""The type of arrays of numbers, by one name for all modules."""
+"""The type of arrays of numbers, and the one way in which arrays that a user gives become such arrays."""
+
+from __future__ import annotations
+
+import math
 
 import numpy as np
 from numpy.typing import NDArray
 
+from contact.errors import ContactError, real, require_number
+
 Array = NDArray[np.float64]
+
+
+def as_array(name: str, values: object) -> Array:
+    """Return `values` as a new float64 array, which may have NaN.
+
+    Raises
+    ------
+    ContactError
+        For anything but real numbers: text, truth values, complex numbers, dates, what is missing, rows of unequal length; and
+        for a masked value, of which numpy would take the number under the mask.
+    """
+    _require_present(name, values)
+    try:
+        raw = np.asarray(values)
+        kind = raw.dtype.kind
+        if kind == "O":
+            numbers = [real(_placed(name, where), value) for where, value in np.ndenumerate(raw)]
+            return np.array(numbers, dtype=np.float64).reshape(raw.shape)
+        if kind in "iuf":
+            return np.array(raw, dtype=np.float64, order="C")
+        if raw.ndim == 0:
+            real(name, values)
+    except ContactError:
+        raise
+    except (TypeError, ValueError, OverflowError, RuntimeError):
+        raise ContactError(f"{name} is not an array of numbers") from None
+    raise ContactError(f"{name} is not an array of numbers, but of {raw.dtype}")
+
+
+def require_numbers(
+    name: str, values: object, minimum: float = -math.inf, maximum: float = math.inf, *, open_minimum: bool = False
+) -> Array:
+    """Return `values` as a new float64 array of finite numbers. Each is checked as by `contact.errors.require_number`.
+
+    Raises
+    ------
+    ContactError
+        As `as_array`, and for the first number outside the range, with its place.
+    """
+    array = as_array(name, values)
+    finite = np.isfinite(array)
+    known = np.where(
+        finite, array, minimum if math.isfinite(minimum) else 0.0
+    )  # NaN compared with a number may be a trap
+    good = finite & (known > minimum if open_minimum else known >= minimum) & (known <= maximum)
+    if not good.all():
+        where = np.unravel_index(int(np.argmin(good)), array.shape)
+        require_number(_placed(name, where), float(array[where]), minimum, maximum, open_minimum=open_minimum)
+    return array
+
+
+def broadcast(arrays: dict[str, Array]) -> list[Array]:
+    """Return arrays, given by name, with one shape.
+
+    Raises
+    ------
+    ContactError
+        If their shapes do not broadcast.
+    """
+    try:
+        return list(np.broadcast_arrays(*arrays.values()))
+    except ValueError:
+        told = ", ".join(f"{name} {array.shape}" for name, array in arrays.items())
+        raise ContactError(f"shapes do not broadcast: {told}") from None
+
+
+def _placed(name: str, where: tuple[int | np.intp, ...]) -> str:
+    """Return the name of an element of an array."""
+    return f"{name}[{', '.join(map(str, where))}]" if where else name
+
+
+def _require_present(name: str, values: object) -> None:
+    """Raise a ContactError for a masked value, in an array, or in a list of arrays or numbers."""
+    if isinstance(values, np.ma.MaskedArray):
+        mask = np.ma.getmaskarray(values)
+        if mask.any():
+            where = np.unravel_index(int(np.argmax(mask)), mask.shape)
+            raise ContactError(
+                f"{_placed(name, where)} is masked; leave masked values out, for example by compressed()"
+            )
+    elif isinstance(values, list | tuple):
+        for i, part in enumerate(values):
+            if isinstance(part, list | tuple | np.ma.MaskedArray):
+                _require_present(f"{name}[{i}]", part)

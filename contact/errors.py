@@ -10,6 +10,8 @@ from contextvars import ContextVar
 from difflib import get_close_matches
 from typing import Any, TypeVar
 
+import numpy as np
+
 Class = TypeVar("Class")
 
 
@@ -38,6 +40,32 @@ class ProfileWarning(PlausibilityWarning):
     """A fault of a measured profile. The message says what was seen and the option that cures it."""
 
 
+#: What float() would accept: "80e3", which the caller forgot to convert, and what loses a part of itself.
+_NO_NUMBERS = (str, bytes, bool, np.bool_, complex, np.complexfloating)
+
+
+def real(name: str, value: object) -> float:
+    """Return a real number as a float. It may be infinite or NaN.
+
+    Raises
+    ------
+    ContactError
+        For anything else, such as text, a truth value, a complex or a masked number.
+    """
+    if type(value) is float:
+        return value
+    if isinstance(value, np.ma.MaskedArray) and np.ma.getmaskarray(value).any():
+        raise ContactError(f"{name} is masked")
+    try:
+        if isinstance(value, _NO_NUMBERS) or (isinstance(value, np.ndarray) and value.dtype.kind not in "iufO"):
+            raise TypeError
+        return float(value)  # type: ignore[arg-type]
+    except OverflowError:  # Python may refuse to print it
+        raise ContactError(f"{name} is an integer beyond the range of floats") from None
+    except (TypeError, ValueError):
+        raise ContactError(f"{name} = {value!r} is not a number") from None
+
+
 def require_number(
     name: str, value: object, minimum: float = -math.inf, maximum: float = math.inf, *, open_minimum: bool = False
 ) -> float:
@@ -59,14 +87,7 @@ def require_number(
     ContactError
         If the value is not a real number, not finite or outside the range.
     """
-    try:
-        if isinstance(value, str | bytes):  # float() would accept "80e3", which the caller forgot to convert
-            raise TypeError
-        number = float(value)  # type: ignore[arg-type]
-    except OverflowError:  # Python may refuse to print it
-        raise ContactError(f"{name} is an integer beyond the range of floats") from None
-    except (TypeError, ValueError):
-        raise ContactError(f"{name} = {value!r} is not a number") from None
+    number = real(name, value)
     # a comparison with NaN is a trap where floating-point traps are on
     above = math.isfinite(number) and (number > minimum if open_minimum else number >= minimum)
     if not above or number > maximum:
@@ -139,7 +160,7 @@ def require_integer(name: str, value: object, minimum: float = -math.inf, maximu
         If the value is not an integer or is outside the range.
     """
     try:
-        number = operator.index(value)  # type: ignore[arg-type]
+        number = None if isinstance(value, bool) else operator.index(value)  # type: ignore[arg-type]
     except TypeError:
         number = None
     if number is None or not minimum <= number <= maximum:

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from contact import workspace
-from contact.arrays import Array
+from contact.arrays import Array, require_numbers
 from contact.case import cases as prepared_cases
 from contact.case import set_surface
 from contact.creepage import LARGEST_CREEPAGE, Creepage
@@ -107,13 +107,13 @@ def forces(
     surface, coefficients = (friction, friction.static) if isinstance(friction, Friction) else (None, friction)
     index = np.arange(len(separations)) if not isinstance(separation, Separation) else np.array(0)
     columns = [
-        checked("load", load, 0.0) if load is not None else checked("approach", approach, -np.inf),
+        require_numbers("load", load, 0.0) if load is not None else require_numbers("approach", approach),
         *(
-            checked(f"creepage.{name}", value, -LARGEST_CREEPAGE, LARGEST_CREEPAGE)
+            require_numbers(f"creepage.{name}", value, -LARGEST_CREEPAGE, LARGEST_CREEPAGE)
             for name, value in zip(_PARTS, creepages, strict=True)
         ),
-        checked("friction", coefficients, 0.0, LARGEST),
-        checked("speed", speed, 0.0),
+        require_numbers("friction", coefficients, 0.0, LARGEST),
+        require_numbers("speed", speed, 0.0),
         index,
     ]
     names = ("approach" if load is None else "load", *(f"creepage.{name}" for name in _PARTS), "friction", "speed")
@@ -209,21 +209,3 @@ def _creepages(given: Any) -> tuple[ArrayLike, ArrayLike, ArrayLike]:
 def cores() -> int:
     """Return the number of cores that this process may use."""
     return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
-
-
-def checked(name: str, values: ArrayLike | None, minimum: float, maximum: float = np.inf) -> Array:
-    """Return `values` as a float64 array. Raise a ContactError for the first value outside [minimum, maximum]."""
-    try:
-        array = np.asarray(values, dtype=np.float64)
-    except (TypeError, ValueError, OverflowError):
-        raise ContactError(f"{name} is not an array of numbers") from None
-    finite = np.isfinite(array)
-    known = np.where(finite, array, minimum)  # a comparison with NaN is a trap where floating-point traps are on
-    bad = ~(finite & (known >= minimum) & (known <= maximum))
-    if bad.any():
-        where = np.unravel_index(int(np.argmax(bad)), array.shape)
-        raise ContactError(
-            f"{name}{list(map(int, where)) if array.ndim else ''} = {array[where]:g} is outside the allowed range "
-            f"[{minimum:g}, {maximum:g}]"
-        )
-    return array

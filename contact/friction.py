@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from contact.arrays import require_numbers
 from contact.errors import ContactError, require_number
 from contact.kernels.friction import coefficient, over_profile
 from contact.material import Thermal
@@ -185,11 +186,7 @@ class Friction:
 
     def coefficient(self, velocity: ArrayLike) -> float | NDArray[np.float64]:
         """Return the coefficient [-] at slip velocities [m/s], which must not be negative."""
-        velocities = np.asarray(velocity, dtype=np.float64)
-        if not (np.isfinite(velocities).all() and (velocities >= 0.0).all()):
-            raise ContactError(
-                f"velocity = {velocities.min():g} … {velocities.max():g} is outside the allowed range [0, inf["
-            )
+        velocities = require_numbers("velocity", velocity, 0.0)
         kinetic = self.static if self.kinetic is None else self.kinetic
         law = LAWS.index(self.law)
         values = np.array(
@@ -199,7 +196,7 @@ class Friction:
 
     def factor(self, y: ArrayLike) -> NDArray[np.float64]:
         """Return the factor [-] on all coefficients at lateral positions `y` [m]."""
-        at = np.asarray(y, dtype=np.float64)
+        at = require_numbers("y", y)
         values = [over_profile(self.gauge_factor, self.border, self.border_width, float(v)) for v in at.ravel()]
         return np.array(values).reshape(at.shape)
 

@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from contact.arrays import as_array
 from contact.core import Packed
 from contact.errors import ContactError, require_number
 from contact.kernels.arrays import Samples
@@ -164,10 +165,7 @@ def _require_positive(name: str, array: NDArray[np.float64]) -> None:
 
 def _column(name: str, values: ArrayLike, n: int | None) -> NDArray[np.float64]:
     """Return a float64 copy of `values` with length `n`. A scalar is repeated. All values must be finite."""
-    try:
-        array = np.array(values, dtype=np.float64)
-    except (TypeError, ValueError, OverflowError):
-        raise ContactError(f"{name} is not an array of numbers") from None
+    array = as_array(name, values)
     if array.ndim == 0 and n is not None:
         array = np.full(n, float(array))
     if array.ndim != 1 or (n is not None and array.size != n):

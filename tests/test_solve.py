@@ -91,7 +91,7 @@ BAD_SEPARATIONS = [
     (([0, 1, 2], [0, 0], 1.0), "g has shape"),
     (([0, 1, 2], [0, math.nan, 0], 1.0), r"g\[1\] = nan"),
     (([0, 1, 2], [0, 0, 0], [1, 0, 1]), r"A\[1\] = 0"),
-    (([0, 1, 2], [0, 0, 0], "steep"), "A is not an array of numbers"),
+    (([0, 1, 2], [0, 0, 0], "steep"), "A = 'steep' is not a number"),
     (([0, 1, 2], [0, 0, 0], 1.0, [0, math.inf, 0]), r"x_c\[1\] = inf"),
 ]
 

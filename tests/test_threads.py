@@ -21,6 +21,7 @@ import pytest
 import contact
 import models
 from contact import Creepage, Separation
+from contact.accumulation import Histogram, Section
 from contact.errors import ContactError
 from contact.geometry import profile
 from contact.geometry.surfaces import Flat, SurfacePair, WheelSurface
@@ -28,6 +29,7 @@ from contact.geometry.wheelset import Pair, Pose, Velocity
 from contact.ownership import OwnsArrays
 from contact.pair import HalfspacePair, RollerRig, WheelRailPair, over_poses
 from contact.solution import solution as solutions
+from contact.stress import Endurance
 from models.vehicle.coupling import OpenVehicle
 from models.wheelset.model import WheelsetModel
 from tests.vehicle.parts import simulation
@@ -99,6 +101,18 @@ OWNERS = {
     "WheelsetModel": Kind(WheelsetModel, lambda o, k: [o.step(1e-4), o.motion()][1], stepper=True),
     "Simulation": Kind(simulation, lambda o, k: [o.advance(1e-4, 5), o.state.q.copy()][1], stepper=True),
     "OpenVehicle": Kind(lambda: OpenVehicle(simulation()), lambda o, k: o.ask()),
+}
+(PATCH,) = pair().contacts(Pose(), load=8e4)
+SOLVED = contact.solve(PATCH.separation, PATCH.creepage, load=8e4)
+OWNERS |= {
+    "Histogram": Kind(
+        lambda: Histogram(WHEEL), lambda o, k: [o.add(PATCH, SOLVED, distance=1.0), o["wear"]][1], stepper=True
+    ),
+    "Section": Kind(
+        lambda: Section(RAIL, Endurance(3e8, 8.0, 1e6), [1e-3, 2e-3]),
+        lambda o, k: [o.add(PATCH, SOLVED), o.damage.copy()][1],
+        stepper=True,
+    ),
 }
 COPIES = {"copy": copy.copy, "deepcopy": copy.deepcopy, "pickle": lambda o: pickle.loads(pickle.dumps(o))}
 PURE = [name for name, kind in OWNERS.items() if not kind.stepper]

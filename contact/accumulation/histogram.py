@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping, Sequence
 from html import escape
-from typing import Literal, get_args
+from typing import Any, Literal, get_args
 
 import numpy as np
 
@@ -20,6 +20,7 @@ from contact.kernels.records import LEDGER
 from contact.kernels.rows import Bin
 from contact.material import Material
 from contact.notebook import Sketch
+from contact.ownership import OwnsArrays, one_thread
 from contact.solution import Solution
 
 Per = Literal["metre", "revolution", "pass"]
@@ -44,7 +45,7 @@ _NAMES = (*SUMS, *MAXIMA)
 _OFF = 1e-4  # a contact point further from the profile [m] belongs to another profile
 
 
-class Histogram:
+class Histogram(OwnsArrays):
     """Damage accumulated on one profile. `a + b` is the damage of both histograms.
 
     Bins have equal width along the profile, and the depth is along the profile's normal. Depth times width is therefore the
@@ -111,6 +112,12 @@ class Histogram:
         self.materials: set[Material] = set()
         self._values = np.zeros((len(_NAMES), self.edges.size - 1))
 
+    def _kept(self) -> Any:
+        return self._values, self.distance, set(self.methods), set(self.materials)
+
+    def _keep(self, kept: Any) -> None:
+        self._values, self.distance, self.methods, self.materials = kept
+
     def __getitem__(self, name: str) -> Array:
         if name not in _NAMES:
             raise ContactError(f"quantity = {name!r} is none of {', '.join(_NAMES)}")
@@ -121,6 +128,7 @@ class Histogram:
         """Middle of each bin [m]."""
         return 0.5 * (self.edges[:-1] + self.edges[1:])
 
+    @one_thread
     def add(
         self, patches: Patch | Sequence[Patch], solutions: Solution | Sequence[Solution], *, distance: float
     ) -> None:

@@ -3,16 +3,18 @@
 from __future__ import annotations
 
 import math
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike
 
+from contact.arrays import as_array
 from contact.errors import ContactError, require_number
 from contact.geometry.profile import Profile
 from contact.geometry.records import Patch
 from contact.kernels.damage import deposit
 from contact.kernels.rows import Strip
+from contact.ownership import OwnsArrays, one_thread
 from contact.solution import Solution
 from contact.stress import Endurance, SurfaceLoad, dang_van
 
@@ -30,7 +32,7 @@ class Worst(NamedTuple):
     depth: float
 
 
-class Section:
+class Section(OwnsArrays):
     """Miner's sum of Dang Van's equivalent stress over arc length and depth of a profile.
 
     A passage takes the share ``endurance.damage(τ_DV)`` of the life of every point that it stresses; at 1 fatigue is expected.
@@ -76,7 +78,7 @@ class Section:
         if not isinstance(endurance, Endurance):
             raise ContactError(f"endurance = {endurance!r} is not a contact.stress.Endurance")
         self.profile, self.endurance = profile, endurance
-        self.depths = np.array(depths, dtype=np.float64)
+        self.depths = as_array("depths", depths)
         if self.depths.ndim != 1 or self.depths.size == 0 or not (np.diff(self.depths, prepend=-1e-300) > 0.0).all():
             raise ContactError("depths must be one or more depths ≥ 0 [m] that increase")
         width = require_number("width", width, 1e-5, 1e-2)
@@ -89,6 +91,13 @@ class Section:
         self.damage = np.zeros((self.depths.size, self.centres.size))
         self.passages = 0.0
 
+    def _kept(self) -> Any:
+        return self.damage.copy(), self.passages
+
+    def _keep(self, kept: Any) -> None:
+        self.damage, self.passages = kept
+
+    @one_thread
     def add(self, patch: Patch, solution: Solution, passages: float = 1.0) -> None:
         """Add `passages` ≥ 0 of a contact. A wheel has one in 2π·radius of distance, a rail one for each wheel.
 

@@ -7,7 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from contact.damage._check import Array, elementwise, numbers
+from contact.arrays import Array, require_numbers
+from contact.damage._check import elementwise
 from contact.errors import require_number
 from contact.kernels.damage.archard import wear_coefficient_kernel
 
@@ -86,8 +87,8 @@ def wear_coefficient(
     """
     return elementwise(
         wear_coefficient_kernel,
-        numbers("velocity", velocity, 0.0),
-        numbers("pressure", pressure, 0.0),
-        numbers("hardness", hardness, 0.0, open_minimum=True),
+        require_numbers("velocity", velocity, 0.0),
+        require_numbers("pressure", pressure, 0.0),
+        require_numbers("hardness", hardness, 0.0, open_minimum=True),
         constants=((parameters or ArchardMap()).constants(),),
     )

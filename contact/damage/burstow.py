@@ -7,7 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from contact.damage._check import Array, elementwise, numbers
+from contact.arrays import Array, require_numbers
+from contact.damage._check import elementwise
 from contact.errors import require_number
 from contact.kernels.damage.burstow import burstow_kernel
 
@@ -68,5 +69,5 @@ def burstow(T_gamma: ArrayLike, parameters: Burstow | None = None) -> float | Ar
         For values outside their range.
     """
     return elementwise(
-        burstow_kernel, numbers("T_gamma", T_gamma, 0.0), constants=((parameters or Burstow()).constants(),)
+        burstow_kernel, require_numbers("T_gamma", T_gamma, 0.0), constants=((parameters or Burstow()).constants(),)
     )

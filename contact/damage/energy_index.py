@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from numpy.typing import ArrayLike
 
-from contact.damage._check import Array, elementwise, numbers
+from contact.arrays import Array, require_numbers
+from contact.damage._check import elementwise
 from contact.kernels.damage.energy_index import energy_index_kernel
 
 
@@ -39,11 +40,11 @@ def energy_index(
     """
     return elementwise(
         energy_index_kernel,
-        numbers("qx", qx),
-        numbers("qy", qy),
-        numbers("x", x),
-        numbers("y", y),
-        numbers("longitudinal", longitudinal),
-        numbers("lateral", lateral),
-        numbers("spin", spin),
+        require_numbers("qx", qx),
+        require_numbers("qy", qy),
+        require_numbers("x", x),
+        require_numbers("y", y),
+        require_numbers("longitudinal", longitudinal),
+        require_numbers("lateral", lateral),
+        require_numbers("spin", spin),
     )

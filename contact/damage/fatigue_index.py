@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from numpy.typing import ArrayLike
 
-from contact.damage._check import Array, elementwise, numbers
+from contact.arrays import Array, require_numbers
+from contact.damage._check import elementwise
 from contact.kernels.damage.fatigue_index import fatigue_index_kernel
 
 
@@ -31,7 +32,7 @@ def fatigue_index(utilisation: ArrayLike, max_pressure: ArrayLike, shear_yield: 
     """
     return elementwise(
         fatigue_index_kernel,
-        numbers("utilisation", utilisation, 0.0),
-        numbers("max_pressure", max_pressure, 0.0, open_minimum=True),
-        numbers("shear_yield", shear_yield, 0.0, open_minimum=True),
+        require_numbers("utilisation", utilisation, 0.0),
+        require_numbers("max_pressure", max_pressure, 0.0, open_minimum=True),
+        require_numbers("shear_yield", shear_yield, 0.0, open_minimum=True),
     )

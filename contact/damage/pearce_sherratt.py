@@ -7,7 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from contact.damage._check import Array, elementwise, numbers
+from contact.arrays import Array, require_numbers
+from contact.damage._check import elementwise
 from contact.errors import require_number
 from contact.kernels.damage.pearce_sherratt import pearce_sherratt_kernel
 
@@ -90,7 +91,7 @@ def pearce_sherratt(
     """
     return elementwise(
         pearce_sherratt_kernel,
-        numbers("T_gamma", T_gamma, 0.0),
-        numbers("wheel_diameter", wheel_diameter, 0.0, open_minimum=True),
+        require_numbers("T_gamma", T_gamma, 0.0),
+        require_numbers("wheel_diameter", wheel_diameter, 0.0, open_minimum=True),
         constants=((parameters or PearceSherratt()).constants(),),
     )

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike
 
-from contact.damage._check import Array, numbers
+from contact.arrays import Array, require_numbers
 
 #: Rows of utilised friction and shakedown limit p0/k below the surface, for a line contact: max |τxz| with free residual
 #: stresses. Computed by this project with McEwen's fields [V] (constants.md 5); it agrees with Johnson's 4.00 without
@@ -39,7 +39,7 @@ def shakedown_limit(utilisation: ArrayLike) -> float | Array:
     ContactError
         For values outside their range.
     """
-    mu = numbers("utilisation", utilisation, 0.0)
+    mu = require_numbers("utilisation", utilisation, 0.0)
     surface = np.divide(1.0, mu, out=np.full_like(mu, np.inf), where=mu > LINE[-1, 0])
     limit = np.minimum(np.interp(mu, *LINE.T), surface)
     return limit if limit.ndim else float(limit)

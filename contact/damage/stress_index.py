@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from numpy.typing import ArrayLike
 
-from contact.damage._check import Array, elementwise, numbers
+from contact.arrays import Array, require_numbers
+from contact.damage._check import elementwise
 from contact.kernels.damage.stress_index import stress_index_kernel
 
 
@@ -30,7 +31,7 @@ def stress_index(qx: ArrayLike, qy: ArrayLike, shear_yield: ArrayLike = 300e6) -
     """
     return elementwise(
         stress_index_kernel,
-        numbers("qx", qx),
-        numbers("qy", qy),
-        numbers("shear_yield", shear_yield, 0.0, open_minimum=True),
+        require_numbers("qx", qx),
+        require_numbers("qy", qy),
+        require_numbers("shear_yield", shear_yield, 0.0, open_minimum=True),
     )

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from numpy.typing import ArrayLike
 
-from contact.damage._check import Array, elementwise, numbers
+from contact.arrays import Array, require_numbers
+from contact.damage._check import elementwise
 from contact.kernels.damage.t_gamma import t_gamma_kernel
 
 
@@ -37,10 +38,10 @@ def t_gamma(
     """
     return elementwise(
         t_gamma_kernel,
-        numbers("Fx", Fx),
-        numbers("Fy", Fy),
-        numbers("Mz", Mz),
-        numbers("longitudinal", longitudinal),
-        numbers("lateral", lateral),
-        numbers("spin", spin),
+        require_numbers("Fx", Fx),
+        require_numbers("Fy", Fy),
+        require_numbers("Mz", Mz),
+        require_numbers("longitudinal", longitudinal),
+        require_numbers("lateral", lateral),
+        require_numbers("spin", spin),
     )

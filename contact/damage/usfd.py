@@ -8,7 +8,8 @@ from typing import Literal, get_args
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from contact.damage._check import Array, elementwise, numbers
+from contact.arrays import Array, require_numbers
+from contact.damage._check import elementwise
 from contact.errors import ContactError, require_number
 from contact.kernels.damage.usfd import usfd_kernel
 
@@ -96,7 +97,7 @@ def usfd(T_gamma: ArrayLike, area: ArrayLike, parameters: Usfd | None = None) ->
     """
     return elementwise(
         usfd_kernel,
-        numbers("T_gamma", T_gamma, 0.0),
-        numbers("area", area, 0.0, open_minimum=True),
+        require_numbers("T_gamma", T_gamma, 0.0),
+        require_numbers("area", area, 0.0, open_minimum=True),
         constants=((parameters or Usfd()).constants(),),
     )

@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from contact.arrays import Array
+from contact.arrays import Array, require_numbers
 from contact.errors import ContactError, require_number
 from contact.geometry.rigid import ContactPoints, contact_points
 from contact.geometry.shape import Profile
@@ -120,14 +120,9 @@ def equivalent_conicity(points: ContactPoints, amplitudes: ArrayLike) -> Conicit
 
 
 def _amplitudes(given: ArrayLike) -> Array:
-    try:
-        wanted = np.atleast_1d(np.array(given, dtype=np.float64))
-    except (TypeError, ValueError, OverflowError):
-        raise ContactError(f"amplitudes = {given!r} is not an array of numbers") from None
+    wanted = np.atleast_1d(require_numbers("amplitudes", given, 1e-4, 0.02))
     if wanted.ndim != 1 or not wanted.size:
         raise ContactError(f"amplitudes of shape {wanted.shape}: at least one is needed")
-    for value in wanted.tolist():
-        require_number("amplitudes", value, 1e-4, 0.02)
     return wanted
 
 

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
-from contact.arrays import Array
+from contact.arrays import Array, as_array
 from contact.errors import ContactError, require_number
 from contact.geometry.shape import Profile
 from contact.geometry.wheelset import Pair, Pose
@@ -109,10 +109,7 @@ def contact_points(
     ContactError
         For invalid arguments, or a displacement at which a wheel does not lie above its rail.
     """
-    try:
-        shifts = np.atleast_1d(np.array(np.arange(-100, 101) * 1e-4 if y is None else y, dtype=np.float64))
-    except (TypeError, ValueError, OverflowError):
-        raise ContactError(f"y = {y!r} is not an array of numbers") from None
+    shifts = np.atleast_1d(as_array("y", np.arange(-100, 101) * 1e-4 if y is None else y))
     if shifts.ndim != 1 or not shifts.size or not np.isfinite(shifts).all():
         raise ContactError(f"y of shape {shifts.shape}: at least one finite displacement [m] is needed")
     track = {"gauge": gauge, "flange_back": flange_back, "gauge_point": gauge_point}

@@ -14,7 +14,7 @@ from typing import Any
 
 import numpy as np
 
-from contact.arrays import Array
+from contact.arrays import Array, as_array
 from contact.errors import ContactError, require_number, warn
 from contact.geometry import inspection
 from contact.geometry.inspection import Kind as Kind
@@ -106,10 +106,7 @@ class Profile:
 
 def _points(name: str, values: object) -> Array:
     """Return a finite one-dimensional float64 copy."""
-    try:
-        array = np.array(values, dtype=np.float64)
-    except (TypeError, ValueError, OverflowError):
-        raise ContactError(f"profile.{name} is not an array of numbers") from None
+    array = as_array(f"profile.{name}", values)
     if array.ndim != 1 or not np.isfinite(array).all():
         raise ContactError(f"profile.{name} must be one-dimensional and finite; its shape is {array.shape}")
     return array

@@ -16,7 +16,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
-from contact.arrays import Array
+from contact.arrays import Array, require_numbers
 from contact.errors import ContactError, require_number
 from contact.geometry.en15302 import equivalent_conicity
 from contact.geometry.rigid import ContactPoints
@@ -80,9 +80,7 @@ def steering(
     require_number("base", base, 0.0, open_minimum=True)
     require_number("radius", radius, 0.0, open_minimum=True)
     require_number("flange", flange, 0.0, math.radians(80.0), open_minimum=True)
-    wanted = np.atleast_1d(np.asarray(curve_radius, dtype=np.float64))
-    for value in wanted.tolist():
-        require_number("curve_radius", value, 10.0, 1e6)
+    wanted = np.atleast_1d(require_numbers("curve_radius", curve_radius, 10.0, 1e6))
     outward = points.y >= 0.0
     steep = outward & (points.right.angle > flange)
     end = float(points.y[steep].min()) if steep.any() else math.inf

@@ -25,7 +25,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from contact import workspace
-from contact.arrays import Array
+from contact.arrays import Array, as_array
 from contact.creepage import Creepage
 from contact.errors import ContactError, require_integer, require_number
 from contact.geometry.posed import Posed, Side
@@ -297,10 +297,7 @@ def _grid(samples: int | ArrayLike) -> tuple[Array, int]:
     if isinstance(samples, int | np.integer):
         require_number("samples", samples, 5, 2001)
         return np.empty(0), int(samples)
-    try:
-        grid = np.array(samples, dtype=np.float64)
-    except (TypeError, ValueError, OverflowError):
-        raise ContactError(f"samples = {samples!r} is neither an integer nor an array of positions [m]") from None
+    grid = as_array("samples", samples)
     if grid.ndim != 1 or grid.size < 5 or not np.isfinite(grid).all() or not (np.diff(grid) > 0.0).all():
         raise ContactError(f"samples of shape {grid.shape}: at least 5 finite, increasing positions [m] are needed")
     return grid, grid.size

@@ -8,7 +8,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
-from contact.arrays import Array
+from contact.arrays import Array, as_array
 from contact.core import entry
 from contact.errors import ContactError
 from contact.kernels import cubic
@@ -43,7 +43,7 @@ class Gap:
     def __init__(self, x: ArrayLike, y: ArrayLike, h: ArrayLike) -> None:
         self.x, self.dx = even("x", x)
         self.y, self.dy = even("y", y)
-        self.h = np.array(h, dtype=np.float64)
+        self.h = as_array("h", h)
         wanted = self.y.size, self.x.size
         if self.h.shape != wanted:
             raise ContactError(f"h has shape {self.h.shape}; {wanted} is needed")
@@ -57,7 +57,7 @@ class Gap:
 
 def even(name: str, values: ArrayLike) -> tuple[Array, float]:
     """Return centres of elements [m] as an array, and their step [m]. They must increase in equal steps."""
-    array = np.array(values, dtype=np.float64)
+    array = as_array(name, values)
     if array.ndim != 1 or not 2 <= array.size <= MAX_SIDE:
         raise ContactError(f"{name} has shape {array.shape}; (n,) with n in [2, {MAX_SIDE}] is needed")
     step = float(array[-1] - array[0]) / (array.size - 1)

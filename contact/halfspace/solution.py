@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import ArrayLike
 
-from contact.arrays import Array
+from contact.arrays import Array, broadcast, require_numbers
 from contact.creepage import Creepage
 from contact.halfspace.bent import Bent, Surface
 from contact.halfspace.tang import Tangential
@@ -38,7 +38,7 @@ class GridSolution(Solution):
 
     def pressure(self, x: ArrayLike, y: ArrayLike) -> Array:
         """Return the contact pressure [Pa] at points `x`, `y` [m]; 0 outside. p² is bilinear between the elements."""
-        x, y = np.broadcast_arrays(np.asarray(x, dtype=np.float64), np.asarray(y, dtype=np.float64))
+        x, y = broadcast({"x": require_numbers("x", x), "y": require_numbers("y", y)})
         grid_x, grid_y, p = self.grid
         if p.size == 0:
             return np.zeros(x.shape)

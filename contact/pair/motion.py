@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from contact.arrays import Array
+from contact.arrays import Array, as_array
 from contact.errors import ContactError, require_number, warn
 from contact.friction import Friction, as_friction
 from contact.geometry.flexible import WheelOffset
@@ -220,10 +220,7 @@ def _columns(motion: Mapping[str, ArrayLike]) -> dict[str, Array]:
         raise ContactError(f"motion has {unknown[0]!r}; known are {', '.join((TIME, STATION, *NAMES))}")
     if TIME not in motion and STATION not in motion:
         raise ContactError("motion has no column 'time' and no column 'station'")
-    try:
-        columns = {name: np.array(column, dtype=np.float64) for name, column in motion.items()}
-    except (TypeError, ValueError, OverflowError):
-        raise ContactError("motion holds something that is not a number") from None
+    columns = {name: as_array(f"motion[{name!r}]", column) for name, column in motion.items()}
     first = TIME if TIME in columns else STATION
     shape = columns[first].shape
     if len(shape) != 1 or not 1 <= shape[0] <= MOST_ROWS or not np.isfinite(columns[first]).all():

@@ -9,11 +9,11 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from contact.arrays import Array
+from contact.arrays import Array, require_numbers
 from contact.case import set_surface
 from contact.creepage import LARGEST_CREEPAGE
 from contact.errors import ContactError
-from contact.forces import checked, cores
+from contact.forces import cores
 from contact.friction import LARGEST, Friction
 from contact.geometry.posed import MAX_PENETRATION
 from contact.geometry.wheelset import Pair
@@ -124,21 +124,21 @@ def over_poses(
     if load is not None and penetration is not None:
         raise ContactError("load and penetration exclude each other")
     surface, coefficients = (friction, friction.static) if isinstance(friction, Friction) else (None, friction)
-    mode, limited = Height.GIVEN, checked("z", z, -np.inf)
+    mode, limited = Height.GIVEN, require_numbers("z", z)
     if load is not None:
-        mode, limited = Height.LOAD, checked("load", load, 0.0)
+        mode, limited = Height.LOAD, require_numbers("load", load, 0.0)
         doubt_values("wheel load", limited)
     elif penetration is not None:
-        mode, limited = Height.PENETRATION, checked("penetration", penetration, 0.0, MAX_PENETRATION)
+        mode, limited = Height.PENETRATION, require_numbers("penetration", penetration, 0.0, MAX_PENETRATION)
     columns = {
-        "pose.y": checked("y", y, -np.inf),
-        "pose.roll": checked("roll", roll, -LARGEST_ANGLE, LARGEST_ANGLE),
-        "pose.yaw": checked("yaw", yaw, -LARGEST_ANGLE, LARGEST_ANGLE),
-        "creepage.longitudinal": checked("longitudinal", longitudinal, -LARGEST_CREEPAGE, LARGEST_CREEPAGE),
-        "creepage.lateral": checked("lateral", lateral, -LARGEST_CREEPAGE, LARGEST_CREEPAGE),
-        "creepage.spin": checked("spin", spin, -LARGEST_CREEPAGE, LARGEST_CREEPAGE),
-        "speed": checked("speed", speed, np.finfo(float).tiny),
-        "friction": checked("friction", coefficients, 0.0, LARGEST),
+        "pose.y": require_numbers("y", y),
+        "pose.roll": require_numbers("roll", roll, -LARGEST_ANGLE, LARGEST_ANGLE),
+        "pose.yaw": require_numbers("yaw", yaw, -LARGEST_ANGLE, LARGEST_ANGLE),
+        "creepage.longitudinal": require_numbers("longitudinal", longitudinal, -LARGEST_CREEPAGE, LARGEST_CREEPAGE),
+        "creepage.lateral": require_numbers("lateral", lateral, -LARGEST_CREEPAGE, LARGEST_CREEPAGE),
+        "creepage.spin": require_numbers("spin", spin, -LARGEST_CREEPAGE, LARGEST_CREEPAGE),
+        "speed": require_numbers("speed", speed, np.finfo(float).tiny),
+        "friction": require_numbers("friction", coefficients, 0.0, LARGEST),
     }
     for name, values in columns.items():
         doubt_values(name, values)

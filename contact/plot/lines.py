@@ -10,6 +10,7 @@ from matplotlib.figure import Figure, FigureBase
 from matplotlib.ticker import MaxNLocator
 from numpy.typing import ArrayLike, NDArray
 
+from contact.arrays import as_array
 from contact.errors import ContactError
 from contact.plot.style import DPI, FAINT, looks, style
 
@@ -53,7 +54,7 @@ def curve(
     ContactError
         If a curve is not as long as the abscissa.
     """
-    abscissa = np.asarray(creepage, dtype=np.float64)
+    abscissa = as_array("creepage", creepage)
     with style():
         if ax is None:
             width = 5.6 if len(curves) <= INSIDE else 7.6
@@ -103,7 +104,7 @@ def time_histories(
     """
     if not panels:
         raise ContactError("panels is empty; at least one is needed")
-    abscissa = np.asarray(time, dtype=np.float64)
+    abscissa = as_array("time", time)
     names = list(dict.fromkeys(name for lines in panels.values() for name in lines))
     look = looks(names)
     with style():
@@ -134,7 +135,7 @@ def time_histories(
 
 def _ordinate(name: str, values: ArrayLike, abscissa: NDArray[np.float64]) -> NDArray[np.float64]:
     """Return `values` as an array. Raise a ContactError if it is not as long as the abscissa."""
-    ordinate = np.asarray(values, dtype=np.float64)
+    ordinate = as_array(f"line {name!r}", values)
     if ordinate.shape != abscissa.shape:
         raise ContactError(
             f"line {name!r} has shape {ordinate.shape}; that of the abscissa, {abscissa.shape}, is needed"

@@ -10,7 +10,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from numpy.typing import ArrayLike
 
-from contact.arrays import Array
+from contact.arrays import Array, as_array
 from contact.errors import ContactError, require_number
 from contact.plot.style import DPI, FAINT, INK, LINES, MM, looks, style
 
@@ -128,7 +128,7 @@ def shares(profile: Profile, depths: Mapping[str, ArrayLike], title: str = "") -
         above, below = figure.subplots(2, 1, sharex=True, height_ratios=[1.6, 1.0])
         base = np.zeros(profile.y.size)
         for (name, depth), (colour, _) in zip(depths.items(), looks(depths).values(), strict=True):
-            values = _UM * np.asarray(depth, dtype=np.float64)
+            values = _UM * as_array(f"depths[{name!r}]", depth)
             if values.shape != base.shape:
                 raise ContactError(f"depths[{name!r}] has shape {values.shape}; the profile has {base.size} points")
             above.fill_between(MM * profile.y, base, base + values, color=colour, lw=0.0, label=name)

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import ArrayLike
 
-from contact.arrays import Array
+from contact.arrays import Array, broadcast, require_numbers
 from contact.kernels.arrays import PatchStrips
 from contact.kernels.stress.load import add_pressures
 from contact.notebook import Sketch
@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
 def pressure_at(solution: Solution, x: ArrayLike, y: ArrayLike) -> Array:
     """Return the contact pressure [Pa] at points of the contact plane: the work of `Solution.pressure`."""
-    x, y = np.broadcast_arrays(np.asarray(x, dtype=np.float64), np.asarray(y, dtype=np.float64))
+    x, y = broadcast({"x": require_numbers("x", x), "y": require_numbers("y", y)})
     result = np.zeros(x.size)
     for k, (low, high) in enumerate(solution.patch_edges):
         strips = strips_of(solution, k)

@@ -16,7 +16,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from contact.arrays import Array
+from contact.arrays import Array, require_numbers
 from contact.errors import ContactError, require_number
 from contact.solution import Solution
 from contact.stress.field import Peak
@@ -88,7 +88,7 @@ class Endurance:
 
     def damage(self, equivalent: ArrayLike) -> Array:
         """Return the share of the life that one passage takes [-], for equivalent stresses [Pa]; 0 for those below 0."""
-        ratio = np.maximum(np.asarray(equivalent, dtype=np.float64), 0.0) / self.limit
+        ratio = np.maximum(require_numbers("equivalent", equivalent), 0.0) / self.limit
         return np.asarray(ratio**self.exponent / self.cycles)
 
 

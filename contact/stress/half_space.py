@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from contact.arrays import Array
+from contact.arrays import Array, broadcast, require_numbers
 from contact.errors import ContactError, require_number
 from contact.halfspace.influence import fast_length
 from contact.kernels.stress.below import N_LOADS, N_STRESSES, stresses_at
@@ -198,17 +198,9 @@ def _prepared(load: Solution | SurfaceLoad, body: str, poisson_ratio: float | No
 
 def _points(x: ArrayLike, y: ArrayLike, z: ArrayLike) -> tuple[Array, Array, Array]:
     """Return the coordinates [m] of points, broadcast and checked."""
-    try:
-        arrays = [np.asarray(v, dtype=np.float64) for v in (x, y, z)]
-        points = np.broadcast_arrays(*arrays)
-    except (TypeError, ValueError, OverflowError):
-        raise ContactError("x, y and z are not numbers or arrays that broadcast") from None
-    for name, values in zip("xyz", arrays, strict=True):
-        bad = ~(np.isfinite(values) & (values >= (0.0 if name == "z" else -np.inf)))
-        if bad.any():
-            fault = "outside the allowed range [0, inf[" if name == "z" else "not finite"
-            raise ContactError(f"{name} = {values[bad].ravel()[0]:g} is {fault}")
-    return points[0], points[1], points[2]
+    checked = {"x": require_numbers("x", x), "y": require_numbers("y", y), "z": require_numbers("z", z, 0.0)}
+    x, y, z = broadcast(checked)
+    return x, y, z
 
 
 def _depths(z: ArrayLike) -> Array:

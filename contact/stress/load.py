@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
-from contact.arrays import Array
+from contact.arrays import Array, as_array
 from contact.errors import ContactError, require_integer
 from contact.halfspace.gap import even
 from contact.halfspace.solution import GridSolution
@@ -52,7 +52,7 @@ class SurfaceLoad:
         put(self, "y", even("y", y)[0])
         shape = self.y.size, self.x.size
         for name, values in (("p", p), ("qx", qx), ("qy", qy)):
-            field = np.array(values, dtype=np.float64, order="C")
+            field = as_array(name, values)
             if field.ndim == 0:
                 field = np.full(shape, float(field))
             if field.shape != shape:

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
+from contact.arrays import as_array
 from contact.solution import Solution
 
 
@@ -56,5 +57,5 @@ def errors_against(true: Solution, s: Solution, touch: float = 0.0) -> Errors | 
 
 def mean_p95_max(values: ArrayLike) -> tuple[float, float, float]:
     """Return mean, 95th percentile and maximum of the absolute values."""
-    size = np.abs(np.asarray(values, dtype=np.float64))
+    size = np.abs(as_array("values", values))
     return float(size.mean()), float(np.percentile(size, 95)), float(size.max())

@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from contact.arrays import Array
+from contact.arrays import Array, require_numbers
 from contact.errors import ContactError, require_integer, suggestion, warn
 from contact.pair import WheelRailPair, over_poses
 from contact.study.files import require_ending
@@ -87,7 +87,7 @@ class LookupTable:
             raise ContactError(f"at = {', '.join(at)}: the table has the axes {', '.join(self.axes)}")
         places, weights = [], []
         for name, points in self.axes.items():
-            given = np.asarray(at[name], float)
+            given = require_numbers(name, at[name])
             x = np.clip(given, points[0], points[-1])
             if (x != given).any():
                 beyond = given[x != given].flat[0]
@@ -232,7 +232,7 @@ def _breakpoints(axes: Mapping[str, ArrayLike]) -> dict[str, Array]:
             raise ContactError(f"axes: {name!r} is none of {', '.join(AXES)}{suggestion(name, AXES)}")
     if not axes:
         raise ContactError(f"axes is empty; give breakpoints of one of {', '.join(AXES)}")
-    found = {name: np.asarray(axes[name], dtype=float) for name in AXES if name in axes}
+    found = {name: require_numbers(f"axes[{name!r}]", axes[name]) for name in AXES if name in axes}
     for name, values in found.items():
         if values.ndim != 1 or values.size < 2 or not (np.diff(values) > 0.0).all():
             raise ContactError(f"axes[{name!r}] has no increasing breakpoints, two at least")

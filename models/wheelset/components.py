@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 import contact
-from contact.arrays import Array
+from contact.arrays import Array, as_array
 from contact.errors import ContactError
 from contact.material import Material
 from .model import WheelsetModel
@@ -69,7 +69,7 @@ class DirectContact:
         self._solution: contact.Solution | None = None
 
     def write(self, port: str, values: ArrayLike) -> None:
-        self._problem = np.array(values, dtype=np.float64)
+        self._problem = as_array(port, values)
 
     def step(self, time: float, h: float) -> None:
         problem = self._problem
@@ -122,7 +122,7 @@ class LinearContact:
         self._creepage = np.zeros(3)
 
     def write(self, port: str, values: ArrayLike) -> None:
-        self._creepage = np.array(values, dtype=np.float64)[CREEPAGE]
+        self._creepage = as_array(port, values)[CREEPAGE]
 
     def step(self, time: float, h: float) -> None:
         """Do nothing, because the component has no state."""
@@ -146,7 +146,7 @@ class DirectWheelset:
         self.model = model
 
     def write(self, port: str, values: ArrayLike) -> None:
-        given = np.asarray(values, dtype=np.float64).tolist()
+        given = as_array(port, values).tolist()
         if port == "irregularity":
             self.model.set_irregularity(*given)
         else:

@@ -41,7 +41,7 @@ from tests.command_line import call  # noqa: E402
         (("solve", "--rail", "rail A", "--inclination", "0.05"), "EN 15302 rail A has no inclination"),
         (("solve", "--rail", "some.prr", "--inclination", "0.05"), "some.prr' is missing"),
         (("solve", "--profile-rotation", "2", "0"), "rotation = 2 is outside the allowed range [-0.5, 0.5]"),
-        (("conicity", "--amplitude", "3"), "amplitudes = 3 is outside the allowed range [0.0001, 0.02]"),
+        (("conicity", "--amplitude", "3"), "amplitudes[0] = 3 is outside the allowed range [0.0001, 0.02]"),
         (("conicity", "--left-radius", "0.4"), "has the same sign"),
         (("geometry", "--gauge", "1435"), "--gauge 1435 is outside"),
         (("solve", "--load", "1", "--penetration", "1e-5"), "exclude each other"),

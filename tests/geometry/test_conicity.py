@@ -132,8 +132,8 @@ def test_contact_points_are_mirror_images():
 @pytest.mark.parametrize(
     ("options", "message"),
     [
-        ({"amplitudes": [0.0]}, "amplitudes = 0 is outside"),
-        ({"amplitudes": "x"}, "amplitudes = 'x' is not an array"),
+        ({"amplitudes": [0.0]}, r"amplitudes\[0\] = 0 is outside"),
+        ({"amplitudes": "x"}, "amplitudes = 'x' is not a number"),
         ({"amplitudes": []}, "at least one"),
         ({"step": 1.0}, "step = 1 is outside"),
         ({"gauge": "wide"}, "gauge = 'wide' is not a number"),

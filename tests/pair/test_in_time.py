@@ -162,7 +162,7 @@ def test_damping_is_added_from_the_second_row_on(pair):
         ({"time": [0.0], "pose.q": [0.0]}, {}, "motion has 'pose.q'; known are time, station, pose.y"),
         ({"time": [0.0, 0.0]}, {}, "'time' is not a column of increasing numbers"),
         ({"time": [0.0, 1.0], "pose.y": [0.0]}, {}, r"'pose.y' has shape \(1,\), 'time' has \(2,\)"),
-        ({"time": ["now"]}, {}, "not a number"),
+        ({"time": ["now"]}, {}, r"motion\['time'\] is not an array of numbers"),
         ({"time": [0.5], "pose.yaw": [0.2]}, {}, r"at time 0.5 s: pose.yaw = 0.2 is outside"),
         (
             {"time": [0.0], "friction.coefficient": [0.3]},

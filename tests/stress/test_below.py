@@ -185,7 +185,7 @@ def test_the_peak_is_at_least_that_of_the_grid(criterion):
         ({"z": -1e-3}, r"z = -0\.001 is outside the allowed range \[0, inf\["),
         ({"x": math.nan}, "x = nan is not finite"),
         ({"x": [0.0, 1.0], "y": [0.0, 1.0, 2.0]}, "broadcast"),
-        ({"x": "one"}, "not numbers"),
+        ({"x": "one"}, "x = 'one' is not a number"),
         ({"body": "sleeper"}, "body = 'sleeper' is unknown; allowed: rail, wheel"),
         ({"poisson_ratio": 0.6}, "poisson_ratio = 0.6 is outside the allowed range"),
         ({"load": 3.0}, "neither a contact.Solution nor"),

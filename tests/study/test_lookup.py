@@ -84,7 +84,7 @@ def test_wrong_tables_are_refused(pair, table, tmp_path):
         ({"yew": [0.0, 1e-3]}, {}, "'yew' is none of .*did you mean 'yaw'"),
         ({"y": [0.0]}, {}, "two at least"),
         ({"y": [1e-3, 0.0]}, {}, "no increasing breakpoints"),
-        ({"y": [0.0, float("nan")]}, {}, "no increasing breakpoints"),
+        ({"y": [0.0, float("nan")]}, {}, r"axes\['y'\]\[1\] = nan is not finite"),
         ({}, {}, "axes is empty"),
         ({"y": [0.0, 1e-3]}, {"tables": ("Fq",)}, "'Fq' is none of"),
         ({name: np.linspace(0.0, 1e-3, 500) for name in ("y", "yaw", "lateral")}, {}, "numbers; allowed"),

@@ -8,7 +8,7 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import ArrayLike
 
-from contact.arrays import Array
+from contact.arrays import Array, as_array
 from contact.errors import ContactError
 from contact.geometry.shape import Profile
 from contact.geometry.surfaces.sheet import SplineSheet
@@ -29,10 +29,7 @@ class SliceCurve:
         if isinstance(points, Profile):
             self.f = np.stack((points.y, points.z))
         else:
-            try:
-                array = np.array(points, dtype=np.float64)
-            except (TypeError, ValueError, OverflowError):
-                raise ContactError(f"{name} is neither a Profile nor an array of points (y, z)") from None
+            array = as_array(name, points)
             if array.ndim != 2 or array.shape[1] != 2 or array.shape[0] < 4 or not np.isfinite(array).all():
                 raise ContactError(f"{name} has shape {array.shape}; at least 4 finite points (n, 2) are needed")
             self.f = array.T
@@ -81,10 +78,7 @@ class SliceCurve:
 
 def positions(name: str, values: ArrayLike) -> Array:
     """Return strictly increasing positions of slices as an array."""
-    try:
-        u = np.array(values, dtype=np.float64)
-    except (TypeError, ValueError, OverflowError):
-        raise ContactError(f"{name} is not an array of numbers") from None
+    u = as_array(name, values)
     if u.ndim != 1 or not 1 <= u.size <= MOST_SLICES or not np.isfinite(u).all():
         raise ContactError(f"{name} has shape {u.shape}; 1 to {MOST_SLICES} finite positions are needed")
     steps = np.diff(u)
@@ -146,10 +140,7 @@ def _features(features: ArrayLike | None, curves: Sequence[SliceCurve]) -> Array
     lengths = np.array([curve.length for curve in curves])
     if features is None:
         return np.stack((np.zeros_like(lengths), lengths), axis=1)
-    try:
-        marks = np.array(features, dtype=np.float64)
-    except (TypeError, ValueError, OverflowError):
-        raise ContactError("features is not an array of numbers") from None
+    marks = as_array("features", features)
     if marks.ndim != 2 or marks.shape[0] != len(curves) or marks.shape[1] < 2:
         raise ContactError(f"features has shape {marks.shape}; ({len(curves)}, at least 2) is needed")
     marks = np.where(np.isfinite(marks), marks, -1.0)  # NaN is not compared, which would be a floating-point trap

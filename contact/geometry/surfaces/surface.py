@@ -10,7 +10,7 @@ from typing import Any, Self
 import numpy as np
 from numpy.typing import ArrayLike
 
-from contact.arrays import Array
+from contact.arrays import Array, as_array
 from contact.errors import ContactError, require_number
 from contact.geometry.shape import Profile
 from contact.geometry.surfaces.deviation import Deviation
@@ -194,10 +194,7 @@ class WheelSurface(_Surface):
         **options
             As for the class.
         """
-        try:
-            across, out = np.array(y, dtype=np.float64), np.array(dr, dtype=np.float64)
-        except (TypeError, ValueError, OverflowError):
-            raise ContactError("y or dr is not an array of numbers") from None
+        across, out = as_array("y", y), as_array("dr", dr)
         n = np.size(np.asarray(theta))
         if across.ndim != 1 or out.shape != (n, across.size):
             raise ContactError(f"dr has shape {out.shape}; ({n}, {across.size}) is needed for theta and y")
