@@ -16,9 +16,13 @@ import numpy as np
 
 from contact.arrays import Array
 from contact.halfspace.krylov import gmres
-from contact.halfspace.newton import INEXACT, MAX_KRYLOV, MAX_NEWTON
+from contact.halfspace.newton import INEXACT, MAX_KRYLOV, MAX_NEWTON, Newton
 from contact.halfspace.tang import Rolling
 
+#: A step that Newton's iteration does not solve from the last traction is led there in this number of parts, or in `_MORE`.
+_PARTS, _MORE = 5, 25
+#: Most evaluations of the search for one creepage.
+_MOST_ROOT = 60
 #: Smallest determinant of the Schur complement over that of a sticking contact; below it the force is nearly saturated.
 _REGULAR = 1e-6
 #: A larger creepage [-] is no answer: the wheel slides as fast as it rolls.
@@ -26,11 +30,11 @@ _LARGEST = 1.0
 
 
 class GivenForces:
-    """One problem of steady rolling under given forces.
+    """One problem of steady rolling, or of a step in time, under given forces.
 
     Parameters
     ----------
-    rolling : Rolling
+    rolling : Newton
     w : ndarray, shape (2, ny, nx)
         Rigid slip over V without the unknown creepages.
     unknown : list of int
@@ -39,7 +43,7 @@ class GivenForces:
         Sum of the traction over the elements in these directions [Pa].
     """
 
-    def __init__(self, rolling: Rolling, w: Array, unknown: list[int], wanted: Array) -> None:
+    def __init__(self, rolling: Newton, w: Array, unknown: list[int], wanted: Array) -> None:
         self.rolling, self.w, self.unknown, self.wanted = rolling, w, unknown, wanted
         #: A row of forces counts like the slip of this traction of every element.
         self._weight = rolling.operator.own / math.sqrt(w[0].size)
@@ -47,9 +51,9 @@ class GivenForces:
         self._solved = self._columns
         self._inverse: Array = np.zeros((len(unknown), len(unknown)))
 
-    def solve(self, u: Array) -> tuple[Array, Array] | None:
-        """Return creepages and traction, from the creepages `u` and no traction. None if the iteration fails."""
-        rolling, q = self.rolling, np.zeros_like(self.w)
+    def solve(self, u: Array, q: Array | None = None) -> tuple[Array, Array] | None:
+        """Return creepages and traction, from the creepages `u` and a traction, by default 0. None if the iteration fails."""
+        rolling, q = self.rolling, np.zeros_like(self.w) if q is None else q
         limit, first = float(rolling.bound.sum()), 0.0
         for _ in range(MAX_NEWTON):
             residual = rolling.linearise(q, rolling.slip(q, self.w + self._spread(u)))
@@ -107,3 +111,71 @@ class GivenForces:
         u = self._inverse @ (rest - self._weight * self._sums(change))
         change -= np.einsum("k,kcij->cij", u, self._solved)
         return np.concatenate((change.ravel(), u))
+
+
+def followed(newton: Newton, q: Array, w: Array) -> tuple[Array, float]:
+    """Return traction and residual of a step from the traction `q`, in parts if it does not get there at once."""
+    found, residual = newton.solve(q, w)
+    if residual > newton.tolerance:
+        rest = newton.influence.times(newton.operator.transfer, q)  # w = -rest is where the last traction stays
+        found = q
+        for part in range(1, _PARTS + 1):
+            found, residual = newton.solve(found, -rest + (w + rest) * (part / _PARTS))
+    return found, residual
+
+
+def driven(
+    newton: Newton, w: Array, unknown: list[int], wanted: Array, u: Array, q: Array
+) -> tuple[Array, Array] | None:
+    """Return creepages and traction under given forces; the force is raised in parts if it is not found at once."""
+    limit = float(newton.bound.sum())
+    if math.sqrt(float(wanted @ wanted)) > limit * (1.0 + 1e-9):
+        return None
+    for start, traction in ((u, q), (np.zeros(len(unknown)), np.zeros_like(q))):
+        found = GivenForces(newton, w, unknown, wanted).solve(start, traction)
+        if found is not None:
+            return found
+    for parts in (_PARTS, _MORE) if len(unknown) == 2 else (_PARTS,):
+        found = np.zeros(len(unknown)), q
+        first = q[unknown].sum(axis=(1, 2))
+        for part in range(1, parts + 1):
+            found = GivenForces(newton, w, unknown, first + (wanted - first) * (part / parts)).solve(*found)
+            if found is None:
+                break
+        if found is not None:
+            return found
+    return _bracketed(newton, w, unknown[0], float(wanted[0]), q) if len(unknown) == 1 else None
+
+
+def _bracketed(newton: Newton, w: Array, direction: int, wanted: float, q: Array) -> tuple[Array, Array] | None:
+    """Return one creepage and the traction under one given force, inside a bracket: the force falls as the creepage grows."""
+    limit, traction = float(newton.bound.sum()), q
+
+    def residual(u: float) -> float:
+        nonlocal traction
+        slip = w.copy()
+        slip[direction] += u
+        traction, _ = newton.steady(traction, slip) if isinstance(newton, Rolling) else followed(newton, traction, slip)
+        return float(traction[direction].sum()) - wanted
+
+    step = max(float(np.abs(w).max()), newton.operator.own * float(newton.bound.max()), 1e-12)
+    ends, values = [-step, step], [residual(-step), residual(step)]
+    for _ in range(_MOST_ROOT):
+        k = 0 if values[0] <= 0.0 else 1
+        if values[0] > 0.0 and values[1] < 0.0:
+            break
+        ends[k] *= 2.0
+        values[k] = residual(ends[k])
+    else:
+        return None
+    for turn in range(_MOST_ROOT):
+        u = ends[0] + (ends[1] - ends[0]) * (0.5 if turn % 3 == 2 else values[0] / (values[0] - values[1]))
+        value = residual(u)
+        found = GivenForces(newton, w, [direction], np.array([wanted])).solve(np.array([u]), traction)
+        if found is not None and ends[0] <= float(found[0][0]) <= ends[1]:
+            return found
+        if abs(value) <= newton.tolerance * limit:
+            return np.array([u]), traction
+        k = 0 if value > 0.0 else 1
+        ends[k], values[k] = u, value
+    return None

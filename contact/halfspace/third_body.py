@@ -27,8 +27,8 @@ from contact.solution import Strips
 #: Elements along a strip for linear theory.
 _COARSE = 16
 #: Share of the first yield stress that an element has at least when it begins to yield. Within one element it softens on, as in
-#: CONTACT, here to no less than `_LEAST` of that stress.
-_FLOOR, _LEAST = 0.1, 1e-6
+#: CONTACT, here to no less than `LEAST` of that stress.
+FLOOR, LEAST = 0.1, 1e-6
 #: Iteration with hardening: largest number of steps, and change of tau_c over the yield stress at its end.
 _MAX_STEPS, _TOLERANCE = 60, 1e-6
 
@@ -121,7 +121,7 @@ def solve_layer(
     for _ in range(_MAX_STEPS):
         found = solve(np.minimum(limit, tau))
         shift = steps[0] * np.hypot(found.sx, found.sy)
-        wanted, plastic = _hardened(body, limit, shift)
+        wanted, plastic = hardened(body, limit, shift)
         if body.hardening == 0.0 or body.yield_stress == math.inf:
             break
         change = float(np.abs(wanted - tau)[limit > 0.0].max(initial=0.0)) / body.yield_stress
@@ -134,13 +134,13 @@ def solve_layer(
     left = 1.0 - plastic / np.where(shift > 0.0, shift, 1.0)
     sheared = (1.0 - left) * np.stack((found.sx, found.sy))  # over V
     # u(x) = u(x + dx) - dx·slip: the plastic shear opposes the slip that it replaces
-    ux, uy = (-steps[0] * _from_the_front(component, limit) for component in sheared)
+    ux, uy = (-steps[0] * from_the_front(component, limit) for component in sheared)
     power = -float((found.qx * sheared[0] + found.qy * sheared[1]).sum()) * steps[0] * steps[1]
     state = Sheared(np.where(limit > 0.0, wanted, 0.0), ux, uy, plastic > 0.0, power)
     return replace(found, sx=left * found.sx, sy=left * found.sy), state
 
 
-def _hardened(body: ThirdBody, limit: Array, shift: Array) -> tuple[Array, Array]:
+def hardened(body: ThirdBody, limit: Array, shift: Array) -> tuple[Array, Array]:
     """Return tau_c [Pa] and the plastic part [m] of the `shift` of each element, row by row from the leading edge."""
     tau, plastic = np.full(limit.shape, body.yield_stress), np.zeros(limit.shape)
     if body.yield_stress == math.inf:
@@ -152,12 +152,12 @@ def _hardened(body: ThirdBody, limit: Array, shift: Array) -> tuple[Array, Array
         part = np.where(before < limit[:, j], shift[:, j], 0.0)
         if body.hardening > 0.0:  # until the layer is as strong as friction; the rest is slip
             part = np.minimum(part, np.maximum(limit[:, j] - before, 0.0) / body.hardening)
-        tau[:, j], plastic[:, j] = np.maximum(before + body.hardening * part, _LEAST * body.yield_stress), part
-        before = np.maximum(tau[:, j], _FLOOR * body.yield_stress)
+        tau[:, j], plastic[:, j] = np.maximum(before + body.hardening * part, LEAST * body.yield_stress), part
+        before = np.maximum(tau[:, j], FLOOR * body.yield_stress)
     return tau, plastic
 
 
-def _from_the_front(field: Array, limit: Array) -> Array:
+def from_the_front(field: Array, limit: Array) -> Array:
     """Return the sum of a field over the elements from the leading edge to each element; outside the contact 0."""
     total = np.zeros(field.shape)
     for j in range(field.shape[1] - 1, -1, -1):

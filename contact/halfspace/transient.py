@@ -9,14 +9,14 @@ with the traction q' before the step. Coulomb's law holds for s as in steady rol
 operator C is symmetric here. A particle that enters the contact within the step, because D is longer than an element, has
 only the share (x_lead - x)/D of the rigid slip, and the displacement at x_lead, one element ahead of the leading one.
 
-In a pure shift the contact does not move: s(x) = W + C q(x) - C q'(x) in metres.
+In a pure shift the contact does not move: s(x) = W + C q(x) - C q'(x) in metres. `contact.halfspace.step` solves a step.
 """
 
 from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from functools import cached_property
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -25,24 +25,28 @@ from contact.arrays import Array
 from contact.creepage import Creepage
 from contact.errors import ContactError, require_number, require_pair
 from contact.friction import Friction, as_friction
-from contact.halfspace import influence as half_space
-from contact.halfspace import zones
+from contact.given_force import wanted_force
 from contact.halfspace.bent import Bent
 from contact.halfspace.gap import Division, Gap
-from contact.halfspace.influence import Influence, Transfer, fast_length
-from contact.halfspace.newton import Newton, Operator
+from contact.halfspace.local_law import LocalLaw
 from contact.halfspace.norm import Normal, norm
 from contact.halfspace.solution import GridSolution, assemble
 from contact.halfspace.solve import grid_of, status_of
-from contact.halfspace.tang import OFFSET, Tangential, rigid_slip
+from contact.halfspace.state import State
+from contact.halfspace.step import Stepper
+from contact.halfspace.third_body import ThirdBody
+from contact.halfspace.unlike import Coupling
 from contact.material import STEEL, Material
-from contact.ownership import OwnsArrays, one_thread
+from contact.ownership import OwnsArrays, one_thread, within
 from contact.separation import Separation
+from contact.solution import Status
 
-#: A step that Newton's iteration does not solve from the last traction is led there in this number of parts.
-_PARTS = 5
-#: Residual of a step.
-_TOLERANCE = 1e-7
+#: Given forces (Fx, Fy) on the wheel [N]; None where the motion is given.
+Force = float | tuple[float | None, float | None]
+#: What a copy has from the original.
+_KEPT = ("_amount", "_gap", "_grid", "_state", "_normal", "_pressed", "distance", "speed", "friction", "law", "_local")
+#: Turns between pressure and traction of unlike bodies.
+_TURNS = 40
 
 
 class Transient(OwnsArrays):
@@ -54,15 +58,20 @@ class Transient(OwnsArrays):
     ----------
     separation : Separation or contact.halfspace.Gap
         Undeformed gap.
-    load : float
-        Normal force [N], positive. A step may have a smaller one.
-    friction : float or contact.friction.Friction
-        Coefficient mu ≥ 0 [-], or a law over the global velocity.
+    load, approach : float
+        Normal force [N], positive, or rigid approach [m]; exactly one of them. A step may have another one; on a separation
+        a load must not exceed this one.
+    friction : float, contact.friction.Friction or contact.halfspace.LocalLaw
+        Coefficient mu ≥ 0 [-], a law over the global velocity, or one over the velocity of each element.
     material : Material
     speed : float
         Rolling speed V [m/s] ≥ 0; it only scales velocities and powers, and friction laws.
     spacing : float or (float, float)
         Size (dx, dy) of the elements [m]. Default: 40 × 40 elements over the undeformed overlap of a separation.
+    layer : contact.ThirdBody
+        Layer between the bodies. Its plastic shear stays with the particles.
+    turns : int
+        Most turns between pressure and traction of unlike bodies, 1 to 1000. With 1 the traction does not change the pressure.
 
     Attributes
     ----------
@@ -88,42 +97,76 @@ class Transient(OwnsArrays):
         self,
         separation: Separation | Gap,
         *,
-        load: float,
-        friction: float | Friction = 0.3,
+        load: float | None = None,
+        approach: float | None = None,
+        friction: float | Friction | LocalLaw = 0.3,
         material: Material = STEEL,
         speed: float = 20.0,
         spacing: float | tuple[float, float] | None = None,
+        layer: ThirdBody | None = None,
+        turns: int = _TURNS,
         progress: Callable[[int, float], None] | None = None,
     ) -> None:
         if not isinstance(separation, Separation | Gap):
             raise ContactError(f"separation = {separation!r} is not a contact.Separation")
-        self._load = require_number("load", load, 0.0, open_minimum=True)
-        self.friction, self.material = as_friction(friction), material
-        law = self.friction
-        if (law.velocity != "global" and law.law != "coulomb") or law.hot_factor < 1.0:
-            raise ContactError(
-                "friction: a step takes one coefficient; allowed: a law over the global velocity, not hot"
-            )
-        if material.coupling != 0.0:
-            raise ContactError(f"material.coupling = {material.coupling:g}: a step takes like bodies; allowed: 0")
+        if (load is None) == (approach is None):
+            raise ContactError(f"exactly one of load and approach is needed; load = {load}, approach = {approach}")
+        if layer is not None and not isinstance(layer, ThirdBody):
+            raise ContactError(f"layer = {layer!r} is not a contact.ThirdBody")
+        self._amount = _amount(load, approach)
+        self._set_friction(friction)
+        self.material = material
         self.speed, self._progress = require_number("speed", speed, 0.0), progress
+        self.layer, self._turns = layer, int(require_number("turns", turns, 1, 1000))
         division = Division(40, 40, None if spacing is None else require_pair("spacing", spacing))
-        grid = separation if isinstance(separation, Gap) else grid_of(separation, load, None, material, division)
-        assert grid is not None  # there is a load
-        self._gap, self._grid = separation, grid
-        self._traction = np.zeros((2, *grid.h.shape))
-        self._normal = norm(grid.h, grid.dx, grid.dy, material, load=load)
+        grid = separation if isinstance(separation, Gap) else grid_of(separation, load, approach, material, division)
+        if grid is None:
+            raise ContactError(f"approach = {approach}: the bodies do not touch; a grid needs contact or a Gap")
+        self._gap: Separation | Gap = separation
+        self._largest = math.inf if load is None else load
+        self._grid = grid
+        self._stepper = self._prepared()
+        self._state = self._stepper.fresh()
+        self._normal: Normal | None = None
+        self._pressed: Any = None
         self.distance = 0.0
 
     def _kept(self) -> Any:
-        return self._traction, self._normal, self.distance
+        return {name: self.__dict__[name] for name in _KEPT}
 
     def _keep(self, kept: Any) -> None:
-        self._traction, self._normal, self.distance = kept
+        self.__dict__.update(kept)
+        self._stepper = self._prepared()
+
+    def _set_friction(self, friction: float | Friction | LocalLaw) -> None:
+        """Set the law of friction; `law` is that of each element."""
+        if isinstance(friction, LocalLaw):
+            self.law, self.friction, self._local = friction, Friction(float(friction.static.max())), True
+            return
+        self.friction = law = as_friction(friction)
+        if law.velocity == "greatest" or law.hot_factor < 1.0:
+            raise ContactError(
+                "friction: a step takes no law over the greatest velocity or the temperature; allowed: global, local"
+            )
+        self._local = law.velocity == "local" and law.law != "coulomb"
+        kinetic = law.static if law.kinetic is None else law.kinetic
+        self.law = (
+            LocalLaw(kinetic, ((law.law, law.static - kinetic, law.half_speed),))
+            if self._local
+            else LocalLaw(law.static)
+        )
 
     @one_thread
     def shift(
-        self, longitudinal: float = 0.0, lateral: float = 0.0, rotation: float = 0.0, *, load: float | None = None
+        self,
+        longitudinal: float = 0.0,
+        lateral: float = 0.0,
+        rotation: float = 0.0,
+        *,
+        load: float | None = None,
+        approach: float | None = None,
+        force: Force | None = None,
+        gap: Gap | None = None,
     ) -> GridSolution:
         """Shift the wheel against the rail without rolling, and return the solution.
 
@@ -133,8 +176,14 @@ class Transient(OwnsArrays):
             Rigid shift of the wheel against the rail at the origin [m].
         rotation : float
             About the normal [rad].
-        load : float
-            Normal force of this and the following steps [N], 0 to that of the constructor.
+        load, approach : float
+            Normal force [N] ≥ 0 or approach [m] of this and the following steps.
+        force : float or (float, float)
+            Tangential force Fx, or (Fx, Fy), on the wheel [N] after the step, instead of the shift in its direction; None in
+            a pair where the shift is given. The shift found is the solution's `creepage`.
+        gap : Gap
+            Undeformed gap of this and the following steps, on elements of the same size. Its grid may be moved by whole
+            elements.
 
         Returns
         -------
@@ -143,10 +192,20 @@ class Transient(OwnsArrays):
         """
         numbers = (("longitudinal", longitudinal), ("lateral", lateral), ("rotation", rotation))
         moved = Creepage(*(require_number(name, value) for name, value in numbers))
-        return self._step(moved, 0.0, load, self.friction.static)
+        within(self.take)(load, approach, gap)
+        return self._step(moved, 0.0, None if self._local else self.friction.static, force)
 
     @one_thread
-    def roll(self, creepage: Creepage, *, distance: float, load: float | None = None) -> GridSolution:
+    def roll(
+        self,
+        creepage: Creepage,
+        *,
+        distance: float,
+        load: float | None = None,
+        approach: float | None = None,
+        force: Force | None = None,
+        gap: Gap | None = None,
+    ) -> GridSolution:
         """Roll by `distance` [m], and return the solution.
 
         Parameters
@@ -156,26 +215,71 @@ class Transient(OwnsArrays):
         distance : float
             Rolled in this step [m], positive. The error of a step is of first order in the distance; one to two elements are
             usual. Much shorter steps bring wiggles of the traction from element to element.
-        load : float
-            Normal force of this and the following steps [N], 0 to that of the constructor.
+        load, approach, force, gap :
+            As for `shift`; with a force, the creepage in its direction is found.
 
         Returns
         -------
         GridSolution
             `sx`, `sy` are the slip velocities over V, averaged over the step.
         """
-        if not isinstance(creepage, Creepage):
-            raise ContactError(f"creepage = {creepage!r} is not a contact.Creepage")
         step = require_number("distance", distance, 0.0, open_minimum=True)
-        velocity = self.speed * math.hypot(creepage.longitudinal, creepage.lateral)
-        solution = self._step(creepage, step, load, float(self.friction.coefficient(velocity)))
+        within(self.take)(load, approach, gap)
+        solution = self._step(_creepage(creepage), step, self._coefficient(creepage), force)
         self.distance += step
         return solution
+
+    @one_thread
+    def roll_on(
+        self,
+        creepage: Creepage,
+        *,
+        load: float | None = None,
+        approach: float | None = None,
+        force: Force | None = None,
+        gap: Gap | None = None,
+    ) -> GridSolution:
+        """Roll until nothing changes any more, and return the solution of steady rolling. Arguments as for `roll`."""
+        within(self.take)(load, approach, gap)
+        return self._step(_creepage(creepage), math.inf, self._coefficient(creepage), force)
+
+    @one_thread
+    def forget(self, *, keep_pressure: bool = False) -> None:
+        """Discard traction, plastic shear and the memory of friction: the next step starts from untouched bodies.
+
+        With `keep_pressure` the bodies have been pressed together as they are, without traction.
+        """
+        p = self._state.p
+        self._state = self._stepper.fresh()
+        if keep_pressure:
+            self._state = replace(self._state, p=p)
+
+    @property
+    def state(self) -> State:
+        """What the last step has left behind, for `restore`."""
+        return self._state
+
+    @one_thread
+    def restore(self, state: State) -> None:
+        """Go back to what a step before has left behind."""
+        self._state = state
+
+    @one_thread
+    def change(self, *, friction: float | Friction | LocalLaw | None = None, speed: float | None = None) -> None:
+        """Set another law of friction or rolling speed [m/s] for the steps that follow."""
+        if friction is not None:
+            self._set_friction(friction)
+        if speed is not None:
+            self.speed = require_number("speed", speed, 0.0)
+        self._stepper = self._prepared()
 
     @property
     def displacement(self) -> tuple[Array, Array]:
         """Elastic displacement of the wheel's surface against the rail's along x and y [m], on the fields of `grid`."""
-        ux, uy = self._influence.times(self._transfer(0.0), self._traction)
+        ux, uy = self._stepper.displaced(self._state.traction, 0.0)
+        if self._stepper.coupling is not None:
+            added = self._stepper.coupling.displacement(self._state.p)
+            ux, uy = ux + added[0], uy + added[1]
         return ux, uy
 
     @property
@@ -183,103 +287,114 @@ class Transient(OwnsArrays):
         """Centres x, y of all elements [m]."""
         return self._grid.x, self._grid.y
 
-    @cached_property
-    def _influence(self) -> Influence:
-        return Influence(self._grid.h.shape, self._grid.dx, self._grid.dy, self.material)
+    @property
+    def traction(self) -> Array:
+        """Traction on the wheel of all elements [Pa], shape (2, ny, nx)."""
+        return self._state.traction
 
-    def _transfer(self, ahead: float) -> Transfer:
-        """Return the transfer functions of the displacement at x + `ahead` [m]."""
-        h, grid = self._influence, self._grid
-        columns = ahead / grid.dx
-        if columns == 0.0 or math.isclose(columns, 1.0, rel_tol=1e-9):
-            factor = 1.0 if columns == 0.0 else h.ahead
-            return h.xx * factor, h.yy * factor, h.xy * factor
-        ny, nx = grid.h.shape
-        padded = fast_length(2 * ny), fast_length(2 * nx + 2)
-        X = np.fft.fftfreq(padded[1], 1.0 / padded[1]) * grid.dx + ahead
-        Y = np.fft.fftfreq(padded[0], 1.0 / padded[0]) * grid.dy
-        numbers = half_space.tangential(X, Y[:, None], grid.dx, grid.dy, self.material)
-        xx, yy, xy = (np.fft.rfft2(field) for field in numbers)
-        return xx, yy, xy
+    @property
+    def coupling(self) -> Coupling | None:
+        """Coupling of pressure and traction; None for like bodies."""
+        return self._stepper.coupling
 
-    def _step(self, motion: Creepage, distance: float, load: float | None, mu: float) -> GridSolution:
-        """Return the solution of one step; `distance` 0 is a shift, then everything is in metres instead of over V."""
-        grid = self._grid
+    @property
+    def pressure(self) -> Array:
+        """Pressure of all elements [Pa]."""
+        return self._state.p
+
+    def _prepared(self) -> Stepper:
+        x, y = self._grid.x, self._grid.y
+        return Stepper(x, y, self.material, self.layer, self.law, self.speed, self._turns, self._progress)
+
+    def _coefficient(self, creepage: Creepage) -> float | None:
+        """Return the coefficient of a step [-]; None where it is that of each element."""
+        if self._local:
+            return None
+        velocity = self.speed * math.hypot(creepage.longitudinal, creepage.lateral)
+        return float(self.friction.coefficient(velocity))
+
+    @one_thread
+    def take(self, load: float | None = None, approach: float | None = None, gap: Gap | None = None) -> None:
+        """Take another load [N], approach [m] or gap for the steps that follow, as `shift` and `roll` do."""
+        if load is not None and approach is not None:
+            raise ContactError(f"of load and approach only one may be given; load = {load}, approach = {approach}")
         if load is not None:
-            self._press(load)
-        p = self._normal.p
-        factor = self.friction.factor(grid.y)[:, None] if self.friction.gauge_factor != 1.0 else 1.0
-        bound, rows = mu * factor * p, Bent.plane(motion, grid.y)
-        w, per_metre = rigid_slip(grid.x, rows, OFFSET * distance), 1.0 / distance if distance > 0.0 else 1.0
-        before, reach = self._before(p, distance)
-        w = reach * w - per_metre * before
-        found = self._coulomb(bound, w, per_metre)
-        self._traction = np.stack((found.qx, found.qy))
+            most = math.inf if isinstance(self._gap, Gap) else self._largest
+            self._amount = {"load": require_number("load", load, 0.0, most)}
+        elif approach is not None:
+            self._amount = {"approach": require_number("approach", approach)}
+        if gap is None:
+            return
+        if not isinstance(gap, Gap):
+            raise ContactError(f"gap = {gap!r} is not a contact.halfspace.Gap")
+        old = self._grid
+        if not (math.isclose(gap.dx, old.dx, rel_tol=1e-6) and math.isclose(gap.dy, old.dy, rel_tol=1e-6)):
+            raise ContactError(f"gap has elements of {gap.dx:g} × {gap.dy:g} m; allowed: {old.dx:g} × {old.dy:g} m")
+        over = [(new[0] - before[0]) / step for new, before, step in ((gap.x, old.x, old.dx), (gap.y, old.y, old.dy))]
+        columns, rows = (round(value) for value in over)
+        if abs(over[0] - columns) > 1e-3 or abs(over[1] - rows) > 1e-3:
+            raise ContactError(f"gap is moved by {over[0]:g} × {over[1]:g} elements; allowed: whole ones")
+        self._gap = self._grid = gap
+        self._normal = None
+        if (columns, rows) != (0, 0) or gap.h.shape != old.h.shape:
+            last, self._stepper = self._state, self._prepared()
+            self._state = last.placed(self._stepper.fresh(), rows, columns)
+
+    def _press(self, opening: Array | None, start: Array | None) -> Normal:
+        """Return the normal solution for an opening of the gap by traction [m]; without one the last is kept."""
+        grid, fixed = self._grid, opening is None
+        if fixed and self._normal is not None and self._pressed == self._amount:
+            return self._normal
+        if self._amount.get("load") == 0.0:
+            found = Normal(np.zeros(grid.h.shape), float(grid.h.min()), 0.0, 0, True)
+        else:
+            h = grid.h if opening is None else grid.h + opening
+            to: dict[str, Any] = {**self._amount}
+            if opening is not None:
+                to |= {"tolerance": 1e-7, "start": start}
+            found = norm(h, grid.dx, grid.dy, self.material, **to)
+        if fixed:
+            self._normal, self._pressed = found, self._amount
+        return found
+
+    def _step(self, motion: Creepage, distance: float, mu: float | None, force: Force | None) -> GridSolution:
+        """Return the solution of one step; `distance` 0 is a shift, then everything is in metres instead of over V."""
+        grid, friction = self._grid, self.friction
+        factor = friction.factor(grid.y)[:, None] if friction.gauge_factor != 1.0 else 1.0
+        given = (None, None) if force is None else wanted_force(force)
+        outcome = self._stepper.solve(self._state, motion, distance, self._press, factor, mu, given)
+        self._state = outcome.state
+        normal, found = outcome.normal, outcome.tangential
+        status = status_of(self._gap, normal.p, grid.y, normal.converged and found.converged and outcome.converged)
+        if any(each is not None for each in given) and not found.converged and normal.p.any():
+            status = Status.UNREACHABLE
         return assemble(
             grid.x,
             grid.y,
-            p,
+            normal.p,
             found,
-            rows,
-            approach=self._normal.approach,
-            stiffness=self._normal.stiffness,
-            iterations=self._normal.iterations + found.iterations,
-            status=status_of(self._gap, p, grid.y, self._normal.converged and found.converged),
-            creepage=motion,
-            friction=mu,
+            Bent.plane(outcome.creepage, grid.y),
+            approach=normal.approach,
+            stiffness=normal.stiffness,
+            iterations=normal.iterations + found.iterations,
+            status=status,
+            creepage=outcome.creepage,
+            friction=friction.static if mu is None else mu,
             material=self.material,
             speed=self.speed,
             normal="halfspace",
             tangential="halfspace",
+            layer=outcome.sheared,
         )
 
-    def _press(self, load: float) -> None:
-        """Solve the normal problem for another load."""
-        require_number("load", load, 0.0, self._load)
-        if load == 0.0:
-            self._normal = Normal(np.zeros(self._grid.h.shape), float(self._grid.h.min()), 0.0, 0, True)
-        else:
-            self._normal = norm(self._grid.h, self._grid.dx, self._grid.dy, self.material, load=load)
 
-    def _before(self, p: Array, distance: float) -> tuple[Array, Array]:
-        """Return the displacement of each particle before the step [m], and its share of the rigid slip [-]."""
-        before = self._influence.times(self._transfer(distance), self._traction)
-        reach = np.ones(p.shape)
-        dx = self._grid.dx
-        if distance <= dx * (1.0 + 1e-9):
-            return before, reach
-        here = self._influence.times(
-            self._transfer(dx), self._traction
-        )  # at x + dx, so column j has the displacement of j + 1
-        for i, row in enumerate(p):
-            touching = np.flatnonzero(row > 0.0)
-            if touching.size:
-                lead = int(touching[-1])
-                room = (lead + 1 - np.arange(row.size)) * dx
-                entered = (room < distance) & (room > 0.0)
-                reach[i, entered] = room[entered] / distance
-                before[:, i, entered] = here[:, i, lead][:, None]
-        return before, reach
+def _creepage(creepage: Creepage) -> Creepage:
+    if not isinstance(creepage, Creepage):
+        raise ContactError(f"creepage = {creepage!r} is not a contact.Creepage")
+    return creepage
 
-    def _coulomb(self, bound: Array, w: Array, per_metre: float) -> Tangential:
-        """Return the tangential solution for the rigid slip `w`, with what was there before the step."""
-        shape, h = bound.shape, self._influence
-        if not bound.any():
-            zero = np.zeros(shape)
-            return Tangential(zero, zero, zero, zero, np.zeros(shape, dtype=bool), 0, 0, 0.0, True)
-        newton = Newton(bound, h, _TOLERANCE, self._progress)
-        own = float(half_space.tangential(0.0, 0.0, self._grid.dx, self._grid.dy, self.material)[0]) * per_metre
-        newton.operator = Operator((h.xx * per_metre, h.yy * per_metre, h.xy * per_metre), own, 1.0 / per_metre, 0.0)
-        q, residual = newton.solve(self._traction, w)
-        if residual > _TOLERANCE:
-            rest = self._influence.times(
-                newton.operator.transfer, self._traction
-            )  # w = -rest is where the last traction stays
-            q = self._traction
-            for part in range(1, _PARTS + 1):
-                q, residual = newton.solve(q, -rest + (w + rest) * (part / _PARTS))
-        s = newton.slip(q, w)
-        zones.settle(q, s, newton.zone, bound)
-        stick = newton.zone == zones.STICK
-        converged = residual <= _TOLERANCE
-        return Tangential(q[0], q[1], s[0], s[1], stick, newton.iterations, newton.products, residual, converged)
+
+def _amount(load: float | None, approach: float | None) -> dict[str, float]:
+    if load is not None:
+        return {"load": require_number("load", load, 0.0, open_minimum=True)}
+    return {"approach": require_number("approach", approach)}

@@ -43,11 +43,17 @@ class Coupling:
         self._shape, self._dx = shape, dx
         ny, nx = shape
         self._padded = fast_length(2 * ny), fast_length(2 * nx + 2)
-        X, Y = (np.fft.fftfreq(m, 1.0 / m) * step for m, step in zip(self._padded[::-1], (dx, dy), strict=True))
-        scale = material.coupling / (math.pi * material.shear_modulus)
-        self._x, self._y = (np.fft.rfft2(scale * J) for J in integrals(X, Y[:, None], dx, dy))
+        self._dy, self._scale = dy, material.coupling / (math.pi * material.shear_modulus)
+        self._x, self._y = self._transfers(0.0)
         ahead = np.exp(2j * math.pi / self._padded[1] * np.arange(self._padded[1] // 2 + 1))
         self._difference = (1.0 - ahead) / dx
+
+    def _transfers(self, ahead: float) -> tuple[NDArray[np.complex128], NDArray[np.complex128]]:
+        """Return the transforms of J5 and J6 at x + `ahead` [m]."""
+        steps = self._dx, self._dy
+        X, Y = (np.fft.fftfreq(m, 1.0 / m) * step for m, step in zip(self._padded[::-1], steps, strict=True))
+        x, y = (np.fft.rfft2(self._scale * J) for J in integrals(X + ahead, Y[:, None], *steps))
+        return x, y
 
     def _forward(self, field: Array) -> NDArray[np.complex128]:
         return np.fft.rfft2(field, self._padded)
@@ -56,10 +62,11 @@ class Coupling:
         ny, nx = self._shape
         return np.fft.irfft2(transform, self._padded)[..., :ny, :nx]
 
-    def displacement(self, p: Array) -> Array:
-        """Return u_x, u_y [m], wheel against rail, of the pressure `p` [Pa], shape (2, ny, nx)."""
+    def displacement(self, p: Array, ahead: float = 0.0) -> Array:
+        """Return u_x, u_y [m] at x + `ahead` [m], wheel against rail, of the pressure `p` [Pa], shape (2, ny, nx)."""
         transform = self._forward(p)
-        return self._back(np.stack((self._x * transform, self._y * transform)))
+        x, y = (self._x, self._y) if ahead == 0.0 else self._transfers(ahead)
+        return self._back(np.stack((x * transform, y * transform)))
 
     def slip(self, p: Array, qx: Array, qy: Array) -> Array:
         """Return the slip over V in steady rolling, [u(x) - u(x + dx)]/dx, shape (2, ny, nx); the traction adds nothing."""

@@ -3,6 +3,9 @@
 from contact.inp.case import Case
 from contact.inp.printed import Printed, read_printed
 from contact.inp.read import read
+from contact.inp.reasons import REASONS
+from contact.inp.results import PatchResult, Result, table
+from contact.inp.run import solve
 from contact.inp.write import write
 
-__all__ = ["Case", "Printed", "read", "read_printed", "write"]
+__all__ = ["REASONS", "Case", "PatchResult", "Printed", "Result", "read", "read_printed", "solve", "table", "write"]

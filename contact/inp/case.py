@@ -83,3 +83,9 @@ class Case:
             values={**self.values, **values},
             fresh=self.fresh | set(values),
         )
+
+    def solve(self, **options: Any) -> Any:
+        """Solve this case alone; see `contact.inp.solve` for the options. The result is a `contact.inp.Result`."""
+        from contact.inp.run import solve
+
+        return solve([self], **options)[0]

@@ -123,17 +123,15 @@ def test_a_separation_and_mirrored_motion():
         (lambda: circle(mu=-1.0), "friction = -1 is outside"),
         (lambda: Transient(contact.Separation.hertzian(1.0, 1.0), load=0.0), "load = 0 is outside"),
         (lambda: Transient(contact.Separation.hertzian(1.0, 1.0), load=1.0, spacing=(1.0, 2.0, 3.0)), "spacing = "),
-        (lambda: circle(mu=contact.friction.Friction(0.3, 0.1, velocity="local", law="linear")), "one coefficient"),
-        (
-            lambda: Transient(
-                contact.Separation.hertzian(1.0, 1.0), load=1.0, material=contact.Material(8e10, 0.3, coupling=0.1)
-            ),
-            "material.coupling = 0.1: a step takes like bodies",
-        ),
+        (lambda: circle(mu=contact.friction.Friction(0.3, hot_factor=0.5)), "greatest velocity or the temperature"),
+        (lambda: Transient(contact.Separation.hertzian(1.0, 1.0), load=1.0, approach=1e-5), "exactly one of load"),
+        (lambda: Transient(contact.Separation.hertzian(1.0, 1.0), load=1.0, layer=0.1), "layer = 0.1 is not"),
         (lambda: circle().shift(math.nan), "longitudinal = nan is not finite"),
         (lambda: circle().roll(contact.Creepage(), distance=0.0), "distance = 0 is outside"),
         (lambda: circle().roll(1e-3, distance=1e-3), "creepage = 0.001 is not a contact.Creepage"),
-        (lambda: circle().roll(contact.Creepage(), distance=1e-3, load=2.0 * N), "load = .* is outside"),
+        (lambda: Transient(contact.Separation.hertzian(1.0, 1.0), load=1.0).shift(load=2.0), "load = 2 is outside"),
+        (lambda: circle().shift(load=1.0, approach=1e-5), "only one may be given"),
+        (lambda: circle().shift(force="much"), "force = 'much'"),
     ],
 )
 def test_bad_input_is_refused(call, message):

@@ -18,7 +18,7 @@ from __future__ import annotations
 
 import itertools
 import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from os import PathLike
 from pathlib import Path
 from typing import Any, Literal, NamedTuple, TypeVar
@@ -56,6 +56,7 @@ def read_rail(
     unit: Literal["m", "mm", "inch"] = "mm",
     mirror_y: bool = False,
     mirror_z: bool = False,
+    smooth: Callable[[Array], Array] | None = None,
     **options: Any,
 ) -> Rail:
     """Return a rail from a file of slices or a folder.
@@ -72,6 +73,8 @@ def read_rail(
         Unit of files of plain columns. Simpack's files name their own.
     mirror_y, mirror_z : bool
         Reverse the sign of y or z. The result must have y to the field side of a right rail and z down.
+    smooth : callable, optional
+        Takes and returns the points (y, z) of a slice [m], shape (n, 2).
     **options
         As for `RailSurface`: spacing, deviations, name; for a folder also features, corners, interpolating.
 
@@ -80,7 +83,7 @@ def read_rail(
     ContactError
         If a file cannot be read or is not of this form, or as `RailSurface`.
     """
-    return _read(Path(path), surface, _RAIL, s, 1e-3, _metres(unit), (mirror_y, mirror_z), options)
+    return _read(Path(path), surface, _RAIL, s, 1e-3, _metres(unit), (mirror_y, mirror_z), smooth, options)
 
 
 def read_wheel(
@@ -91,10 +94,11 @@ def read_wheel(
     unit: Literal["m", "mm", "inch"] = "mm",
     mirror_y: bool = False,
     mirror_z: bool = False,
+    smooth: Callable[[Array], Array] | None = None,
     **options: Any,
 ) -> Wheel:
     """Return a wheel from a file of slices (.slcw) or a folder; `theta` [rad] is for a folder. See `read_rail`."""
-    return _read(Path(path), surface, _WHEEL, theta, 1.0, _metres(unit), (mirror_y, mirror_z), options)
+    return _read(Path(path), surface, _WHEEL, theta, 1.0, _metres(unit), (mirror_y, mirror_z), smooth, options)
 
 
 def _metres(unit: str) -> float:
@@ -112,6 +116,7 @@ def _read(
     unit: float,
     scale: float,
     mirrored: tuple[bool, bool],
+    smooth: Callable[[Array], Array] | None,
     options: dict[str, Any],
 ) -> Any:
     name = "s" if suffix == _RAIL else "theta"
@@ -119,12 +124,13 @@ def _read(
         if positions is None:
             raise ContactError(f"{name} = None: the folder {str(path)!r} does not tell the positions of its slices")
         files = sorted((f for f in path.iterdir() if f.is_file() and not f.name.startswith(".")), key=_numbered)
-        slices = [_points(file, suffix, scale, mirrored) for file in files]
+        slices = _smoothed([_points(file, suffix, scale, mirrored) for file in files], smooth)
         return surface(positions, slices, **{"name": path.name, **options})
     if positions is not None:
         raise ContactError(f"{name}: the file {str(path)!r} holds the positions of its slices")
     found = _parsed(path)
-    slices = [_points(path.parent / name.replace("\\", "/"), suffix, scale, mirrored) for name in found.names]
+    places = [path.parent / name.replace("\\", "/") for name in found.names]
+    slices = _smoothed([_points(place, suffix, scale, mirrored) for place in places], smooth)
     given = {
         "features": None if found.features is None else 1e-3 * found.features,
         "corners": found.corners,
@@ -132,6 +138,10 @@ def _read(
         "name": path.stem,
     }
     return surface(unit * found.positions, slices, **{**given, **options})
+
+
+def _smoothed(slices: list[Array], smooth: Callable[[Array], Array] | None) -> list[Array]:
+    return slices if smooth is None else [smooth(points) for points in slices]
 
 
 def _numbered(path: Path) -> tuple[list[int], str]:

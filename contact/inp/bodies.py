@@ -1,0 +1,134 @@
+"""Profiles and surfaces of a case of module 1, in the right-side form of this package."""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+from typing import Any, cast
+
+import numpy as np
+
+from contact.arrays import Array
+from contact.errors import ContactError
+from contact.geometry import formats, placing
+from contact.geometry.files import lines_of
+from contact.geometry.shape import Profile
+from contact.geometry.smoothing import filtered
+from contact.geometry.surfaces import RailSurface, SurfacePair, WheelSurface
+from contact.inp.case import Case
+from contact.inp.grid import material
+from contact.inp.reasons import RefusedError, refuse
+
+_READERS = {".prr": formats.simpack, ".prw": formats.simpack, ".ban": formats.miniprof, ".whl": formats.miniprof}
+#: Wavelengths that the filter takes [m].
+_SHORTEST, _LONGEST = 1e-4, 0.05
+
+
+def pair(case: Case) -> SurfacePair:
+    """Return wheel and rail of a case, with the elements and distances of its grid."""
+    wheel, rail = cast(Any, body(case, "W")), cast(Any, body(case, "R"))
+    origin = None
+    if case["GAUGHT"] <= 0.0:
+        y = case["RAILY0"]
+        origin = (y if case.digits["C1"] in (1, 5) else -y), case["RAILZ0"]
+    elif not isinstance(rail, Profile):
+        raise refuse(case, "input", "GAUGHT > 0 with slices of a rail; allowed: GAUGHT ≤ 0")
+    to: dict[str, Any] = {}
+    if origin is None:
+        to = {"gauge": case["GAUGWD"], "gauge_point": case["GAUGHT"]}
+    return SurfacePair(
+        wheel,
+        rail,
+        side="right" if case.digits["C1"] in (1, 5) else "left",
+        nominal_radius=case["NOMRADW"],
+        flange_back=case["FBDIST"] - 2.0 * case["FBPOS"] - 0.14,
+        rail_origin=origin,
+        combine_distance=case["D_COMB"],
+        spacing=(case["DX"], case["DS"]),
+        material=material(case),
+        **to,
+    )
+
+
+def key(case: Case) -> tuple[Any, ...]:
+    """Return what the pair depends on: cases of equal key share it."""
+    names = [
+        *("FBDIST", "FBPOS", "NOMRADW", "GAUGHT", "GAUGWD", "RAILY0", "RAILZ0", "CANT", "D_COMB", "DX", "DS"),
+        *("POISS1", "POISS2", "GG1", "GG2", "YTAPE"),
+    ]
+    of_profile = ("FNAME", "MIRRORY", "MIRRORZ", "SCALE", "SMOOTH", "ISMOOTH")
+    sides = tuple(case.get(f"{side}{name}") for side in "RW" for name in of_profile)
+    return (case.digits["C1"], *(case.get(name) for name in names), *sides)
+
+
+def body(case: Case, side: str) -> Profile | RailSurface | WheelSurface:
+    """Return the rail (`side` R) or the wheel (W)."""
+    path: Path = case[f"{side}FNAME"]
+    kind = "rail" if side == "R" else "wheel"
+    slices = path.suffix.lower() in (".slcs", ".slcw")
+    mirror_y, mirror_z = case[f"{side}MIRRORY"] == 1, case[f"{side}MIRRORZ"]
+    scale = case[f"{side}SCALE"]
+
+    def smooth(points: Array) -> Array:
+        return np.column_stack(_smoothed(case, side, points)[:2])
+
+    try:
+        if slices:
+            if scale != 1.0:
+                raise refuse(case, "input", f"SCALE = {scale:g} of slices; allowed: 1")
+            options = {"mirror_y": mirror_y, "mirror_z": mirror_z == 1}
+            options |= {"smooth": smooth} if case[f"{side}SMOOTH"] > 0.0 else {}
+            if side == "R":
+                if case.get("CANT", 0.0) != 0.0:
+                    raise refuse(case, "input", "CANT of slices; allowed: 0")
+                return RailSurface.read(path, **options)
+            return WheelSurface.read(path, **options)
+        points = _points(path, kind, scale, mirror_y, mirror_z)
+    except RefusedError:
+        raise
+    except ContactError as error:
+        message = f"{case.place}, {side}FNAME in line {case.lines[f'{side}FNAME']}: {error}"
+        raise RefusedError("input", message) from None
+    y, z, angle = _smoothed(case, side, points)
+    profile = Profile(kind, y, z, angle, path.stem)  # type: ignore[arg-type]
+    if side == "R" and case.get("CANT", 0.0) != 0.0:
+        profile = profile.rotated(-case["CANT"])
+    if side == "W" and case["YTAPE"] < 0.999:
+        down = float(np.interp(case["YTAPE"], profile.y, profile.z))
+        profile = Profile("wheel", profile.y, profile.z - down, profile.angle, path.stem)
+    return profile
+
+
+def _points(path: Path, kind: str, scale: float, mirror_y: bool, mirror_z: int) -> Array:
+    """Return the points [m] from the gauge or flange side on, y to the field side and z down."""
+    reader = _READERS.get(path.suffix.lower(), formats.columns)
+    content = reader(lines_of(path), path, "right")
+    points = content.points * ((content.unit or 1e-3) * scale)
+    if mirror_y:
+        points = points * [-1.0, 1.0]
+    if mirror_z == 1:
+        points = points * [1.0, -1.0]
+    known = mirror_z != 0 or content.downwards
+    content = formats.Content(points, 1.0, True, known)
+    return placing.placed(points, content, kind, path, "file")  # type: ignore[arg-type]
+
+
+def _smoothed(case: Case, side: str, points: Array) -> tuple[Array, Array, Array | None]:
+    """Return the points, smoothed as the file asks for: by λ [mm³] of a spline or by a wavelength [mm]."""
+    amount = case[f"{side}SMOOTH"]
+    y, z = points.T
+    if amount <= 0.0:
+        return y, z, None
+    kind = case.get(f"{side}ISMOOTH") or 0
+    if kind == 2:
+        raise refuse(case, "smoothing", "ISMOOTH = 2")
+    length = amount
+    if kind == 0:
+        mean = float(np.hypot(np.diff(y), np.diff(z)).mean()) * 1e3
+        length = 2.0 * math.pi * (mean * amount) ** 0.25
+    length *= 1e-3
+    if length < _SHORTEST:
+        return y, z, None
+    if length > _LONGEST:
+        raise refuse(case, "smoothing", f"a wavelength of {length:g} m; allowed: up to {_LONGEST:g} m")
+    return filtered(y, z, length)

@@ -1,0 +1,227 @@
+"""Run cases of module 1: a wheel on a rail, by the half space on the file's elements, or by strips."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+
+from contact.arrays import Array
+from contact.creepage import Creepage
+from contact.friction import Friction
+from contact.geometry.records import Irregularity, Pose, Velocity
+from contact.geometry.surfaces import SurfacePair, SurfacePatch
+from contact.halfspace import GridSolution
+from contact.inp import bodies
+from contact.inp.case import Case
+from contact.inp.grid import material
+from contact.inp.reasons import refuse
+from contact.inp.results import PatchResult, Result
+from contact.inp.single import layer
+from contact.pair.halfspace import HalfspacePair
+from contact.pair.solution import Contact, PairSolution, Solved
+from contact.pair.wheel_rail import WheelRailPair
+from contact.solve import solve as solve_contact
+
+_LAWS = {2: ("linear", "FLIN"), 3: ("rational", "FRAT"), 4: ("exponential", "FEXP")}
+
+
+def require_supported(case: Case, fast: bool) -> None:
+    """Raise a `RefusedError` for what cannot run on a wheel and a rail."""
+    digits = case.digits
+    for reason, wrong, what in (
+        ("pair in time", digits["T"] in (1, 2), f"T = {digits['T']}"),
+        ("roller", digits["C1"] >= 4, f"C1 = {digits['C1']}"),
+        ("force on the wheel", digits["F"] == 1, "F = 1"),
+        ("elastic rail", digits["F"] == 3, "F = 3"),
+        ("flexible wheel", digits["E"] in (4, 5) or any(case.get(name) for name in _FLEXIBLE), f"E = {digits['E']}"),
+        ("viscoelastic", digits["M"] == 1, "M = 1"),
+        ("simplified theory", digits["M"] in (2, 5, 6, 7) and not fast, f"M = {digits['M']}"),
+        ("simplified bodies", digits["M"] == 3 and not fast, "M = 3"),
+        ("layer on a pair", digits["M"] == 4 and fast, "M = 4"),
+        ("thin sheet", digits["B"] == 1, "B = 1"),
+        ("fast pressure", digits["B"] in (5, 6) and not fast, f"B = {digits['B']}"),
+        ("bilinear", case["INFLUENCE"] == 3, "C = 3"),
+        ("angle", case["INFLUENCE"] == 4, "C = 4"),
+        ("true slip", case["SEARCH"] == 3, "D = 3"),
+        ("curved pair", case["SEARCH"] == 4, "D = 4"),
+        ("temperature", case["LAW"] == 6, "L = 6"),
+        ("damping", digits["M2"] == 2 and any(case[name] for name in ("CDAMPN", "CDAMPT")), "M2 = 2"),
+        ("curve", case["CURV"] != 0.0, "CURV"),
+        ("unlike bodies in a pair", material(case).coupling != 0.0, "K"),
+        ("friction along the profile", case["ROWS"] == 2 and _varies(case), "V = 2"),
+        ("friction along the profile", case["ROWS"] == 1 and fast and _varies(case), "V = 1"),
+    ):
+        if wrong:
+            raise refuse(case, reason, what)
+
+
+_FLEXIBLE = ("DXWHL", "DYWHL", "DZWHL", "DROLLW", "DYAWW", "DPITCHW")
+
+
+def _varies(case: Case) -> bool:
+    names = ("FSTAT", "FKIN", "FLIN1", "FRAT1", "FEXP1")
+    return any(isinstance(case.get(name), tuple) and len(set(case[name])) > 1 for name in names)
+
+
+class _FilePair(HalfspacePair):
+    """A pair that takes friction and creepages of a patch as the file gives them."""
+
+    case: Case
+
+    def _solved(self, patch: SurfacePatch, velocity: Velocity, friction: float | Friction) -> Solved:
+        case = self.case
+        c, ratio = patch.creepage, velocity.forward / _mean_speed(patch, velocity)
+        creepage = Creepage(c.longitudinal * ratio, c.lateral * ratio, c.spin * ratio)
+        found = solve_contact(
+            patch.gap,
+            creepage,
+            approach=patch.approach,
+            friction=_friction(case, patch, self.pair.side) if case.digits["T"] else 0.0,
+            material=self.pair.material,
+            layer=layer(case) if case.digits["T"] else None,
+            speed=velocity.forward / ratio,
+            throw=False,
+            normal="halfspace",
+            tangential="halfspace",
+        )
+        return Solved(patch, found, patch.frame.axes)
+
+
+def _mean_speed(patch: Any, velocity: Velocity) -> float:
+    """Return V to which CONTACT refers creepages [m/s]: the mean of the speeds of both surfaces."""
+    spin = velocity.spin if velocity.spin is not None else -velocity.forward / patch.rolling_radius
+    mean = 0.5 * (math.hypot(velocity.forward, velocity.y) + abs(spin) * patch.rolling_radius)
+    return mean if mean > 0.0 else 1.0
+
+
+def _friction(case: Case, patch: Any, side: str) -> Friction:
+    """Return the friction of a patch; over the inclination, that at its contact angle in wheel axes of the right side."""
+    rows = case["ROWS"]
+
+    def value(name: str) -> float:
+        given = case[name]
+        if rows == 0:
+            return float(given)
+        if rows == 2:
+            return float(given[0])
+        mirror = 1.0 if side == "right" else -1.0
+        angle = mirror * (patch.angle - case["ROLL"])
+        return float(np.interp(angle, case["ALPHA"], given))
+
+    kind = case["LAW"]
+    if kind == 0:
+        return Friction(value("FSTAT"))
+    name, prefix = _LAWS[kind]
+    two = np.any(np.asarray(case[f"{prefix}2"]) != 0.0)
+    if two or case["MEMDST"] > 0.0:
+        raise refuse(case, "law on a pair", f"L = {kind}")
+    first, kinetic = value(f"{prefix}1"), value("FKIN")
+    return Friction(kinetic + first, kinetic, value("SABSH1"), name, velocity="local")
+
+
+class PairRunner:
+    """Runs cases of a wheel on a rail."""
+
+    def __init__(self, fast: bool, memory: float) -> None:
+        self._fast, self._memory = fast, memory
+        self._key: Any = None
+        self._pair: HalfspacePair | WheelRailPair | None = None
+
+    def solve(self, case: Case) -> Result:
+        """Return the result of a case."""
+        require_supported(case, self._fast)
+        pair = self._prepared(case)
+        if isinstance(pair, _FilePair):
+            pair.case = case
+        pose = Pose(case["Y_WS"], case.get("Z_WS", 0.0) if case.digits["N"] == 0 else 0.0, case["ROLL"], case["YAW"])
+        velocity = Velocity(*(case[name] for name in ("VS", "VY", "VZ", "VROLL", "VYAW", "VPITCH")))
+        if not velocity.forward > 0.0:
+            raise refuse(case, "input", f"VS = {velocity.forward:g}; allowed: positive")
+        rail = Irregularity(*(case[name] for name in _DEVIATIONS))
+        amount: dict[str, Any] = {}
+        if case.digits["N"] == 1:
+            if case["FZ"] <= 0.0:
+                return Result(case, status="no contact")
+            amount["vertical"] = case["FZ"]
+        friction: Any = 0.0 if not case.digits["T"] else _first_friction(case)
+        found = pair.solve(
+            pose,
+            velocity,
+            station=case["S_WS"],
+            rotation=case["PITCH"],
+            irregularity=rail,
+            friction=friction,
+            **amount,
+        )
+        return _result(case, found, velocity)
+
+    def _prepared(self, case: Case) -> HalfspacePair | WheelRailPair:
+        key = bodies.key(case)
+        if self._pair is None or key != self._key:
+            made: SurfacePair = bodies.pair(case)
+            self._pair = WheelRailPair(made, material=made.material) if self._fast else _FilePair(made)
+            self._key = key
+        return self._pair
+
+
+_DEVIATIONS = ("DYRAIL", "DZRAIL", "DROLLR", "VYRAIL", "VZRAIL", "VROLLR")
+
+
+def _first_friction(case: Case) -> Friction:
+    """Return the friction of strips; on the half space each patch has its own."""
+
+    class Middle:
+        angle = 0.0
+
+    return _friction(case, Middle, "right")
+
+
+def _result(case: Case, found: PairSolution, velocity: Velocity) -> Result:
+    """Return the result in CONTACT's signs."""
+    force = -np.asarray(found.force)  # on the rail
+    roll, yaw = case["ROLL"], case["YAW"]
+    turned = _turn(roll, yaw).T @ force
+    values = dict(zip(("FX(TR)", "FY(TR)", "FZ(TR)"), map(float, force), strict=True))
+    values |= dict(zip(("FX(WS)", "FY(WS)", "FZ(WS)"), map(float, turned), strict=True))
+    values["Z_WS"] = found.z
+    mirror = 1.0 if case.digits["C1"] in (1, 5) else -1.0
+    patches = tuple(_patch(case, each, velocity, mirror) for each in found.contacts if each.N > 0.0)
+    return Result(case, patches, values, found.status.name.lower().replace("_", " "))
+
+
+def _turn(roll: float, yaw: float) -> Array:
+    """Return the matrix from wheelset to track axes: roll about x, then yaw about z."""
+    cr, sr, cy, sy = math.cos(roll), math.sin(roll), math.cos(yaw), math.sin(yaw)
+    about_x = np.array([[1.0, 0.0, 0.0], [0.0, cr, -sr], [0.0, sr, cr]])
+    about_z = np.array([[cy, -sy, 0.0], [sy, cy, 0.0], [0.0, 0.0, 1.0]])
+    return about_z @ about_x
+
+
+def _patch(case: Case, c: Contact, velocity: Velocity, mirror: float) -> PatchResult:
+    solution = c.solution
+    values = {
+        "FN": c.N,
+        "FX": -c.Fx,
+        "FY": -c.Fy,
+        "MZ": -c.Mz,
+        "APPROACH": c.approach,
+        "PMAX": c.max_pressure,
+        "DELTCP(TR)": c.angle,
+        "YCP(W)": mirror * c.on_wheel[0],
+    }
+    cant = case.get("CANT", 0.0)  # the file's profile is upright
+    y, z = (float(at) for at in c.on_rail)
+    values["YCP(R)"] = mirror * (math.cos(cant) * y - math.sin(cant) * z)
+    values["ZCP(R)"] = math.sin(cant) * y + math.cos(cant) * z
+    creepage = c.creepage if solution is None else solution.creepage
+    values |= {"CKSI": -creepage.longitudinal, "CETA": -creepage.lateral, "CPHI": -creepage.spin}
+    where = c.position if c.patch is None else c.patch.position
+    values |= dict(zip(("XCP(TR)", "YCP(TR)", "ZCP(TR)"), map(float, where), strict=True))
+    if isinstance(solution, GridSolution):
+        inside = solution.p > 0.0
+        sticks = int((solution.stick & inside).sum()) if case.digits["T"] else int(inside.sum())
+        values |= {"NCON": float(inside.sum()), "NADH": float(sticks), "NSLIP": float(inside.sum() - sticks)}
+        values["FRIC.POWER"] = -solution.power_per_metre * solution.speed
+    return PatchResult(values, solution)

@@ -1,0 +1,137 @@
+"""Run cases: those that continue each other in order, others at once."""
+
+from __future__ import annotations
+
+import time
+import warnings
+from collections.abc import Callable, Iterable, Sequence
+from concurrent.futures import ProcessPoolExecutor
+from typing import Any
+
+from contact.errors import ContactError, ModelWarning, PlausibilityWarning
+from contact.inp.case import Case
+from contact.inp.reasons import REASONS, RefusedError
+from contact.inp.results import Result
+from contact.inp.single import MEMORY, Single
+
+Progress = Callable[[int, int], None]
+
+
+def solve(
+    cases: Sequence[Case],
+    *,
+    fast: bool = False,
+    workers: int = 1,
+    memory: float = MEMORY,
+    progress: Progress | None = None,
+) -> list[Result]:
+    """Solve cases, by default as the file asks for: by the half space, on the grid and in the order of the file.
+
+    Parameters
+    ----------
+    cases : sequence of Case
+        As `contact.inp.read` returns them.
+    fast : bool
+        Solve steady rolling by the default methods on strips instead, without a grid.
+    workers : int
+        Number of processes, for cases that do not continue each other.
+    memory : float
+        Most memory of a case [bytes].
+    progress : callable
+        Called with the numbers of cases that are done and of all.
+
+    Returns
+    -------
+    list of Result
+        In the order of the cases. A case that cannot run has the status "refused", a named reason and a message.
+    """
+    chains, results, done = chains_of(cases), {}, 0
+    if workers > 1 and len(chains) > 1:
+        with ProcessPoolExecutor(workers) as pool:
+            parts = _parts(chains, 4 * workers)
+            for part, found in zip(
+                parts, pool.map(_run, parts, [fast] * len(parts), [memory] * len(parts)), strict=True
+            ):
+                for (k, _), result in zip(part, found, strict=True):
+                    results[k] = result
+                done += len(part)
+                if progress is not None:
+                    progress(done, len(cases))
+    else:
+        for chain in chains:
+            for (k, _), result in zip(chain, _run(chain, fast, memory), strict=True):
+                results[k] = result
+                done += 1
+                if progress is not None:
+                    progress(done, len(cases))
+    return [results[k] for k in range(len(cases))]
+
+
+Chain = list[tuple[int, Case]]
+
+
+def chains_of(cases: Sequence[Case]) -> list[Chain]:
+    """Return the cases with their places, in chains: a case that continues another one follows it in its chain."""
+    chains: list[Chain] = []
+    last: dict[tuple[int, int, int], int] = {}
+    for k, case in enumerate(cases):
+        if case.continues and case.memory in last:
+            chains[last[case.memory]].append((k, case))
+        else:
+            last[case.memory] = len(chains)
+            chains.append([(k, case)])
+    return chains
+
+
+def _parts(chains: Iterable[Chain], count: int) -> list[Chain]:
+    """Return the chains joined to about `count` parts."""
+    parts: list[Chain] = [[] for _ in range(count)]
+    for chain in chains:
+        min(parts, key=len).extend(chain)
+    return [part for part in parts if part]
+
+
+def _run(chain: Chain, fast: bool, memory: float) -> list[Result]:
+    """Return the results of a chain, or of several."""
+    runners: dict[tuple[int, int, int], Any] = {}
+    broken: set[tuple[int, int, int]] = set()
+    found = []
+    for _, case in chain:
+        start = time.perf_counter()
+        if case.memory not in runners or not case.continues:
+            runners[case.memory] = _runner(case, fast, memory)
+            broken.discard(case.memory)
+        result = _one(case, runners[case.memory], case.memory in broken)
+        if result.refused:
+            broken.add(case.memory)
+        found.append(Result(**{**result.__dict__, "seconds": time.perf_counter() - start}))
+    return found
+
+
+def _runner(case: Case, fast: bool, memory: float) -> Any:
+    if case.module == 1:
+        from contact.inp.pair import PairRunner
+
+        return PairRunner(fast, memory)
+    if fast:
+        from contact.inp.fast import FastSingle
+
+        return FastSingle()
+    return Single(memory)
+
+
+def _one(case: Case, runner: Any, broken: bool) -> Result:
+    if case.digits["R"] in (2, 3):
+        return Result(case, status="checked")
+    if broken:
+        reason = "follows a refused case"
+        return Result(case, status="refused", refused=reason, message=f"{case.place}: {REASONS[reason]}")
+    try:
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore", PlausibilityWarning)
+            warnings.simplefilter("ignore", ModelWarning)
+            return runner.solve(case)
+    except RefusedError as error:
+        return Result(case, status="refused", refused=error.reason, message=str(error))
+    except ContactError as error:
+        return Result(case, status="refused", refused="input", message=f"{case.place}: {error}")

@@ -1,0 +1,187 @@
+"""Steps with given forces, gaps that change, unlike bodies, layers, local friction: CONTACT 25.1 and closed forms."""
+
+import math
+
+import numpy as np
+import pytest
+
+import contact
+from contact.halfspace import Gap, LocalLaw, Transient
+
+#: Radius of the elements' borders, half curvature and load of the ball of the input file cattaneo (units of that file: mm, N).
+BALL = contact.Material(200e6, 0.42)
+
+
+def ball(**others):
+    x = (np.arange(-1, 20) - 9.0) * 0.13333e-3
+    h = 10.0 * (x**2 + x[:, None] ** 2)
+    return Transient(Gap(x, x, h), load=9.1954, friction=0.4, material=BALL, **others)
+
+
+def test_the_shift_under_a_given_force_is_contacts():
+    """CONTACT 25.1, cattaneo.ref_out case 2: FX = -7/8 mu N needs a shift of 8.155e-3 mm, with 45 elements in stick."""
+    s = ball().shift(force=(0.875 * 0.4 * 9.1954, 0.0))
+    assert s.Fx == pytest.approx(0.875 * 0.4 * 9.1954, rel=1e-7)
+    assert s.creepage.longitudinal == pytest.approx(-8.155e-6, rel=1e-4)
+    assert int((s.stick & (s.p > 0.0)).sum()) == 45
+    assert int((s.p > 0.0).sum()) == 177
+
+
+def test_a_given_force_and_the_shift_that_it_needs_have_the_same_traction():
+    driven, moved = ball(), ball()
+    one = driven.shift(force=(-1.5, 2.0))
+    other = moved.shift(one.creepage.longitudinal, one.creepage.lateral)
+    np.testing.assert_allclose(one.qx, other.qx, atol=1e-5 * one.max_pressure)
+    assert (other.Fx, other.Fy) == pytest.approx((-1.5, 2.0), rel=1e-5)
+    one = driven.roll(contact.Creepage(), distance=0.13333e-3, force=(2.0, None))
+    other = moved.roll(contact.Creepage(one.creepage.longitudinal), distance=0.13333e-3)
+    assert other.Fx == pytest.approx(2.0, rel=1e-5)
+
+
+def test_a_force_beyond_friction_is_unreachable():
+    s = ball().shift(force=1.01 * 0.4 * 9.1954)
+    assert s.status is contact.Status.UNREACHABLE
+
+
+def moved_gap(over, *, slope=None, level=None):
+    """A ball over the place `over`; slope and level of that file are rounded."""
+    x, y = (np.arange(36) - 17.0) * 0.25e-3, (np.arange(35) - 17.0) * 0.25e-3
+    slope, level = -5.926 * over if slope is None else slope, 2.963 * over**2 if level is None else level
+    return Gap(x, y, 2.963 * (x**2 + y[:, None] ** 2) + slope * x + level)
+
+
+def test_rolling_by_shifts_of_a_gap_that_moves_is_contacts():
+    """CONTACT 25.1, catt_to_cart.ref_out cases 58 to 60, in its units of mm and N: shifts 1.774e-2, 4.548e-4, 4.705e-4 mm."""
+    material = contact.Material(1e6, 0.28)
+    patch = Transient(moved_gap(0.0), load=0.4705, friction=0.4013, material=material)
+    first = patch.shift(force=(0.657 * 0.4013 * 0.4705, None))
+    force = (0.657 * 0.4013 * 0.47046, None)  # over the normal force at the approach that the file gives
+    gaps = [moved_gap(0.0, slope=a, level=b) for a, b in ((-1.4815e-3, 1.852e-7), (-2.963e-3, 7.407e-7))]
+    steps = [patch.shift(force=force, approach=0.07258e-3, gap=gap) for gap in gaps]
+    found = [-1e3 * s.creepage.longitudinal for s in (first, *steps)]
+    assert found == pytest.approx([1.774e-2, 4.548e-4, 4.705e-4], rel=5e-4)
+    assert [int((s.stick & (s.p > 0)).sum()) for s in (first, steps[0])] == [305, 422]
+
+
+def test_a_grid_that_moves_with_the_gap_changes_nothing():
+    material, forces = contact.Material(1e6, 0.28), []
+    for window in (0, 3):
+        patch = Transient(moved_gap(0.0), load=0.4705, friction=0.4013, material=material)
+        patch.shift(1e-5)
+        gap = moved_gap(0.5e-3)
+        x = gap.x + window * 0.25e-3
+        h = 2.963 * ((x - 0.5e-3) ** 2 + gap.y[:, None] ** 2)
+        forces.append(patch.shift(2e-6, gap=Gap(x, gap.y, h)).Fx)
+    assert forces[0] == pytest.approx(forces[1], rel=1e-6)
+    with pytest.raises(contact.ContactError, match="moved by"):
+        patch.shift(gap=Gap(x + 0.125e-3, gap.y, h))
+
+
+def test_what_leaves_the_contact_leaves_its_traction():
+    """Half the load in a step: the traction left over outside the smaller contact must not move the rest."""
+    one, other = ball(), ball()
+    one.shift(3e-6)
+    s = one.shift(3e-6, load=4.0)
+    rest = other.state
+    other.shift(3e-6)
+    direct = other.shift(3e-6, load=4.0)
+    x, y = one.grid
+    outside = one.pressure == 0.0
+    assert not one.traction[:, outside].any()
+    ux = one.displacement[0]
+    before = Transient(Gap(x, y, 10.0 * (x**2 + y[:, None] ** 2)), load=9.1954, friction=0.4, material=BALL)
+    before.shift(3e-6)
+    stuck = (np.hypot(*one.traction) < 0.399 * one.pressure) & (one.pressure > 0.0)
+    # in stick the surfaces move as the bodies do
+    np.testing.assert_allclose((ux - before.displacement[0])[stuck], -3e-6, atol=2e-12)
+    assert s.Fx == direct.Fx
+    assert not rest.traction.any()
+
+
+def test_compression_of_unlike_bodies_in_steps_is_contacts():
+    """CONTACT 25.1, spence35.ref_out: pressure, approach and work of friction of stages 2 and 4 (units of mm and N)."""
+    material = contact.Material.from_pair(1e6, 0.0, 2e11, 0.0)
+    x = (np.arange(-1, 12) - 5.0) * 0.2e-3
+    gap = Gap(x, x, 4.116 * (x**2 + x[:, None] ** 2))
+    patch = Transient(gap, load=1.1e-5, friction=0.2986, material=material)
+    steps = [patch.shift(load=load) for load in (1.1e-5, 8.8e-5, 2.96e-4, 7.02e-4)]
+    assert steps[3].approach == pytest.approx(1.293e-6, rel=5e-4)
+    assert [s.power_per_metre for s in steps[1:]] == pytest.approx([3.184e-13, 1.465e-12, 5.868e-12], rel=5e-4)
+
+
+def test_an_element_of_a_third_body_yields_step_by_step_as_in_contact():
+    """CONTACT 25.1, plastic_3bl.ref_out cases 2 to 5: 280, 560, 560, 560 N, plastic work .0168 and .028 J."""
+    x = (np.arange(3) - 1.0) * 1e-3
+    h = np.full((3, 3), 1.0)
+    h[1, 1] = 0.0
+    layer = contact.ThirdBody(20e-6 / 176.63e6, 560e6)
+    patch = Transient(Gap(x, x, h), load=900.0, friction=0.7, material=contact.Material(82e9, 0.28), layer=layer)
+    steps = [patch.shift(c) for c in (3.5e-5, 3.5e-5, 3e-5, 5e-5)]
+    assert [-s.Fx for s in steps] == pytest.approx([280.0, 560.0, 560.0, 560.0], abs=0.05)
+    assert [s.layer.power_per_metre for s in steps] == pytest.approx([0.0, 0.0, 0.0168, 0.028], abs=2e-5)
+    assert [bool(s.layer.plastic.any()) for s in steps] == [False, False, True, True]
+
+
+def test_hardening_raises_the_yield_stress_of_an_element_by_its_shear():
+    x = (np.arange(3) - 1.0) * 1e-3
+    h = np.full((3, 3), 1.0)
+    h[1, 1] = 0.0
+    flexibility, k = 20e-6 / 106.25e6, 4.35e11
+    patch = Transient(
+        Gap(x, x, h),
+        load=900.0,
+        friction=0.7,
+        material=contact.Material(82e9, 0.28),
+        layer=contact.ThirdBody(flexibility, 200e6, k),
+    )
+    own = patch.shift(1e-9)
+    total = 1e-9 / (-own.Fx / 1e-6)  # shift per stress of the element and its layer
+    for _ in range(4):
+        s = patch.shift(5e-5)
+    expected = 200e6 + (2e-4 + 1e-9 - 200e6 * total) * k / (1.0 + k * total)
+    assert -s.Fx / 1e-6 == pytest.approx(expected, rel=1e-5)
+    assert s.layer.yield_stress.max() == pytest.approx(expected, rel=1e-5)
+
+
+def test_roll_on_is_the_end_of_rolling():
+    separation = contact.Separation.hertzian(1.1, 0.8)
+    creepage = contact.Creepage(1e-3, -5e-4, 0.2)
+    last = Transient(separation, load=80e3, spacing=0.6e-3).roll_on(creepage)
+    both = {"normal": "halfspace", "tangential": "halfspace"}
+    steady = contact.solve(separation, creepage, load=80e3, spacing=0.6e-3, **both)
+    assert (last.Fx, last.Fy) == pytest.approx((steady.Fx, steady.Fy), rel=1e-4)
+
+
+def test_a_local_law_is_that_of_the_steady_half_space():
+    separation, creepage = contact.Separation.hertzian(1.1, 0.8), contact.Creepage(6e-3)
+    law = LocalLaw(0.2, (("exponential", 0.15, 0.05),))
+    friction = contact.friction.Friction(0.35, 0.2, half_speed=0.05, law="exponential", velocity="local")
+    both = {"normal": "halfspace", "tangential": "halfspace", "spacing": 0.8e-3}
+    steady = contact.solve(separation, creepage, load=80e3, friction=friction, **both)
+    for given in (law, friction):
+        found = Transient(separation, load=80e3, friction=given, spacing=0.8e-3).roll_on(creepage)
+        assert found.Fx == pytest.approx(steady.Fx, rel=2e-3)
+
+
+def test_memory_of_friction_follows_the_distance_slipped():
+    law = LocalLaw(0.2, (("rational", 0.2, 0.1),), memory_distance=1e-4)
+    slip, time = np.full((1, 400), 0.5), 1e-5
+    field = law.along_rows(slip, np.ones(slip.shape, dtype=bool), time)[0, ::-1]
+    distance = 0.5 * time * np.arange(1, 401)
+    at = 0.2 + 0.2 / 6.0
+    np.testing.assert_allclose(field, at + (0.4 - at) * np.exp(-distance / 1e-4), rtol=1e-9)
+
+
+@pytest.mark.parametrize(
+    ("kind", "share"), [("linear", 0.5), ("rational", 0.5), ("rational_square", 0.5), ("exponential", 0.5)]
+)
+def test_a_term_is_halved_at_its_velocity(kind, share):
+    law = LocalLaw(0.1, ((kind, 0.2, 0.3),))
+    assert float(law.at(np.array([[0.3]]))[0, 0]) == pytest.approx(0.1 + share * 0.2)
+    assert float(law.static[0, 0]) == pytest.approx(0.3)
+
+
+@pytest.mark.parametrize("wrong", [{"terms": (("cubic", 0.1, 0.1),)}, {"memory_distance": -1.0}, {"kinetic": math.nan}])
+def test_a_wrong_law_is_refused(wrong):
+    with pytest.raises(contact.ContactError):
+        LocalLaw(**{"kinetic": 0.2, **wrong})
