@@ -77,7 +77,7 @@ class Stepper:
         self.soft = 0.0 if layer is None else layer.flexibility
         self.influence = Influence(self.shape, self.dx, self.dy, material, self.soft)
         self.coupling = Coupling(self.shape, self.dx, self.dy, material) if material.coupling != 0.0 else None
-        self._turns, self._progress = turns, progress
+        self._turns, self.progress = turns, progress
 
     def fresh(self) -> State:
         """Return the state of a contact that has not been touched."""
@@ -271,7 +271,7 @@ class Stepper:
         if self.coupling is not None:
             w = w + self.coupling.slip(p, p, p)
         steps = self.dx, self.dy
-        return Rolling(bound, steps, self.material, self.soft, _TOLERANCE, self._progress), w
+        return Rolling(bound, steps, self.material, self.soft, _TOLERANCE, self.progress), w
 
     def _in_time(self, bound: Array, rows: Bent, p: Array, state: State, distance: float) -> tuple[Newton, Array]:
         per_metre = 1.0 / distance if distance > 0.0 else 1.0
@@ -280,7 +280,7 @@ class Stepper:
         if self.coupling is not None:
             w = w + per_metre * (self.coupling.displacement(p) - self.coupling.displacement(state.p, distance))
         h = self.influence
-        newton = Newton(bound, h, _TOLERANCE, self._progress)
+        newton = Newton(bound, h, _TOLERANCE, self.progress)
         own = float(half_space.tangential(0.0, 0.0, self.dx, self.dy, self.material)[0]) * per_metre
         own += self.soft * per_metre
         newton.operator = Operator((h.xx * per_metre, h.yy * per_metre, h.xy * per_metre), own, 1.0 / per_metre, 0.0)

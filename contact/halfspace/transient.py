@@ -52,7 +52,7 @@ _TURNS = 40
 class Transient(OwnsArrays):
     """A contact that is shifted and rolled in steps, with its traction.
 
-    It serves one thread. A copy, by `copy.copy` or a pickle, continues from the same traction.
+    It serves one thread. A copy (`copy.copy`, a pickle) continues from the same traction.
 
     Parameters
     ----------
@@ -190,8 +190,8 @@ class Transient(OwnsArrays):
         GridSolution
             `sx`, `sy` are the distances slipped [m], `power_per_metre` is the work of friction in this step [J].
         """
-        numbers = (("longitudinal", longitudinal), ("lateral", lateral), ("rotation", rotation))
-        moved = Creepage(*(require_number(name, value) for name, value in numbers))
+        numbers = {"longitudinal": longitudinal, "lateral": lateral, "rotation": rotation}
+        moved = Creepage(*(require_number(name, value) for name, value in numbers.items()))
         within(self.take)(load, approach, gap)
         return self._step(moved, 0.0, None if self._local else self.friction.static, force)
 
@@ -362,6 +362,7 @@ class Transient(OwnsArrays):
         grid, friction = self._grid, self.friction
         factor = friction.factor(grid.y)[:, None] if friction.gauge_factor != 1.0 else 1.0
         given = (None, None) if force is None else wanted_force(force)
+        self._stepper.progress = self._progress
         outcome = self._stepper.solve(self._state, motion, distance, self._press, factor, mu, given)
         self._state = outcome.state
         normal, found = outcome.normal, outcome.tangential
