@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 import contact
-from contact.geometry import files, inspection, placing, profile
+from contact.geometry import files, inspection, profile, repair
 from contact.geometry.profile import Profile
 from contact.geometry.wheelset import TAPE_FROM_FLANGE_BACK
 from contact.kernels.records import MAX_PATCHES
@@ -205,7 +205,7 @@ def rules() -> dict[str, Any]:
         "usual_slope": {kind: float(slope) for kind, slope in inspection.USUAL_SLOPE.items()},
         "turned_by": {kind: float(angle) for kind, angle in inspection.TURNED_BY.items()},
         "slope_between": {"wheel": inspection.TREAD, "rail": inspection.TOP},
-        "nearest": placing.NEAREST,
+        "nearest": repair.NEAREST,
         "largest_file": files.LARGEST_FILE,
         "window": WINDOW,
         "most": MOST_POINTS,

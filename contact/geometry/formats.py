@@ -6,24 +6,44 @@ from the manual of its program KPF (gensys.se). No file written by one of these 
 
 from __future__ import annotations
 
-import re
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
-from numpy.typing import NDArray
 
+from contact.columns import number, rows_of, without_remark
 from contact.errors import ContactError
+from contact.geometry.false_rows import false_rows
+from contact.geometry.inspection import Fault, Finding, Points
 from contact.geometry.shape import Kind
-
-Points = NDArray[np.float64]  # shape (n, 2): y, z
+from contact.text import lines_of
 
 MM = 1e-3
 INCH = 25.4e-3
-_NOT_FINITE = re.compile(r"(?<![\w.])(nan|inf)(?![\w.])", re.IGNORECASE)
-_NUMBER_WITH_COMMA = re.compile(r"[+-]?\d*,\d+(?:[eE][+-]?\d+)?")
-_NUMBER = re.compile(r"[+-]?\d+(?:[.,]\d*)?(?:[eE][+-]?\d+)?")
+_SHOWN = 3  # rows in a message
+
+
+@dataclass(frozen=True)
+class Choice:
+    """What a reader takes of a file.
+
+    Attributes
+    ----------
+    side : {"", "right", "left"}
+        Side that the file shows; "" if it was not given.
+    columns : tuple of int, optional
+        Columns of y and z, from 1.
+    rows : tuple of int, optional
+        First and last line of the file that is read, from 1; 0 as the last is the end.
+    section : int or "joined", optional
+        Which of several lists of points, from 1.
+    """
+
+    side: str = ""
+    columns: tuple[int, int] | None = None
+    rows: tuple[int, int] | None = None
+    section: int | str | None = None
 
 
 @dataclass(frozen=True)
@@ -42,6 +62,8 @@ class Content:
         Whether the direction of z is known to be down. Otherwise it is found from the shape.
     datum : float
         y of the wheel's tape circle in the points [m].
+    told : tuple of Finding
+        What was left out of the file or chosen in it.
     """
 
     points: Points
@@ -49,6 +71,7 @@ class Content:
     outwards: bool | None = None
     downwards: bool = False
     datum: float = 0.0
+    told: tuple[Finding, ...] = ()
 
     @property
     def resolution(self) -> float:
@@ -63,35 +86,35 @@ class Content:
 
 @dataclass(frozen=True)
 class Format:
-    """A format: its reader, the kind of its profiles, and whether the reader must be told unit and side."""
+    """A format: its reader, the kind of its profiles, whether it says unit and side, and which choices the reader has."""
 
-    read: Callable[[Sequence[str], Path, str], Content]
+    read: Callable[[Path, Choice], Content]
     kind: Kind | None = None
     complete: bool = True
+    choices: tuple[str, ...] = ("columns", "rows")
 
 
-def simpack(lines: Sequence[str], path: Path, side: str) -> Content:
+def simpack(path: Path, choice: Choice) -> Content:
     """Simpack: unit and steps in the header, applied in the order of their numbers: shift, rotate, bounds, mirror."""
     header: dict[str, float] = {}
-    rows: list[list[float]] = []
+    rows: list[tuple[int, str]] = []
     inside = False
-    for number, line in enumerate(lines, 1):
-        text = line.split("!")[0].strip()
+    for k, line in _lines(path, choice):
+        text = without_remark(line, quotes=True)
         if text == "point.begin":
             inside = True
         elif text == "point.end":
             inside = False
-        elif inside and text:
-            rows.append(_numbers(text, number, path)[:2])
+        elif inside:
+            rows.append((k, line))
         elif "=" in text:
             key, _, value = text.partition("=")
-            try:
-                header[key.strip()] = float(value)
-            except ValueError:
-                continue  # a text value, like a comment or the name of the original file
+            if (given := number(value)) is not None and np.isfinite(given):  # others are texts, like a comment
+                header[key.strip()] = given
     if not rows:
         raise ContactError(f"path = {str(path)!r} holds no points between point.begin and point.end")
-    points = np.add(rows, (header.get("shift.y", 0.0), header.get("shift.z", 0.0)))
+    points, told = _points(rows, path, choice, heading=False, quotes=True)
+    points = np.add(points, (header.get("shift.y", 0.0), header.get("shift.z", 0.0)))
     turn = header.get("rotate", 0.0) / (header.get("units.ang.f") or 1.0)
     c, s = np.cos(turn), np.sin(turn)
     points = points @ np.array([[c, s], [-s, c]])
@@ -102,84 +125,114 @@ def simpack(lines: Sequence[str], path: Path, side: str) -> Content:
     for column, axis in enumerate("yz"):
         if header.get(f"mirror.{axis}", 0.0) == 1.0:
             points[:, column] *= -1.0
-    return Content(points, 1.0 / (header.get("units.len.f") or 1.0), outwards=side == "right", downwards=True)
+    unit = 1.0 / (header.get("units.len.f") or 1.0)
+    return Content(points, unit, outwards=choice.side != "left", downwards=True, told=told)
 
 
-def columns(lines: Sequence[str], path: Path, side: str) -> Content:
-    """Plain columns y, z, after any lines of text. Blanks, tabs, semicolons or commas separate them."""
-    rows: list[list[float]] = []
-    for number, line in enumerate(lines, 1):
-        text = line.split("#")[0].split("!")[0].strip()
-        if not text:
-            continue
-        _require_clear_commas(text, number, path)
-        try:
-            rows.append(_numbers(text, number, path)[:2])
-        except ContactError:
-            if len(rows) > 1 or _NOT_FINITE.search(text):
-                raise
-            rows.clear()  # the line belongs to the header
-    if not rows:
-        raise ContactError(f"path = {str(path)!r} holds no columns of numbers")
-    return Content(np.array(rows), outwards=side != "left")
+def columns(path: Path, choice: Choice) -> Content:
+    """Plain columns y, z, below lines of text. Blanks, tabs, semicolons, commas or bars separate them."""
+    points, told = _points(_lines(path, choice), path, choice)
+    return Content(points, outwards=choice.side != "left", told=told)
 
 
-def miniprof(lines: Sequence[str], path: Path, side: str) -> Content:
+def miniprof(path: Path, choice: Choice) -> Content:
     """MiniProf .whl and .ban, in millimetres. The side is found from the shape unless it is given."""
-    return replace(columns(lines, path, side), unit=MM, outwards=None if not side else side == "right")
+    return _miniprof(_lines(path, choice), path, choice)
 
 
-def miniprof_sections(lines: Sequence[str], path: Path, side: str) -> Content:
+def _miniprof(lines: Iterable[tuple[int, str]], path: Path, choice: Choice) -> Content:
+    points, told = _points(lines, path, choice, quotes=True)
+    return Content(points, MM, outwards=None if not choice.side else choice.side == "right", told=told)
+
+
+def miniprof_sections(path: Path, choice: Choice) -> Content:
     """MiniProf .mpt: points follow a line like [ProfilePoints]; other sections hold keys and values."""
-    kept: list[str] = []
+    sections: list[tuple[str, list[tuple[int, str]]]] = []
     inside = False
-    for line in lines:
+    for k, line in _lines(path, choice):
         text = line.strip()
         if text.startswith("["):
             inside = text.endswith("Points]")
-        else:
-            kept.append(text if inside and "=" not in text else "")
-    return miniprof(kept, path, side)
+            if inside:
+                sections.append((text, []))
+        elif inside and "=" not in text:
+            sections[-1][1].append((k, text))
+    sections = [(name, lines) for name, lines in sections if any(map(str.isdigit, "".join(text for _, text in lines)))]
+    if not sections:
+        raise ContactError(f"path = {str(path)!r} holds no section of points, like [ProfilePoints]")
+    parts = [_miniprof(lines, path, choice) for _, lines in sections]
+    return chosen([(name, part) for (name, _), part in zip(sections, parts, strict=True)], path, choice)
 
 
-def vampire(lines: Sequence[str], path: Path, side: str) -> Content:
+def chosen(parts: Sequence[tuple[str, Content]], path: Path, choice: Choice) -> Content:
+    """Return the part of a file that `choice.section` names, or all joined end to end."""
+    listed = ", ".join(f"{k} {name} with {len(part.points)} points" for k, (name, part) in enumerate(parts, 1))
+    if choice.section is None and len(parts) > 1:
+        raise ContactError(
+            f"path = {str(path)!r} holds {len(parts)} lists of points: {listed}; set section to the number of one, or to "
+            f"'joined' if they are parts of one profile"
+        )
+    if choice.section == "joined":
+        points, *others = [part.points for _, part in parts]
+        while others:
+            points = _end_to_end(points, others)
+        return replace(parts[0][1], points=points, told=tuple(finding for _, part in parts for finding in part.told))
+    wanted = 1 if choice.section is None else choice.section
+    if not isinstance(wanted, int) or not 1 <= wanted <= len(parts):
+        raise ContactError(f"section = {wanted!r} is neither 'joined' nor one of {path.name!r}: {listed}")
+    return parts[wanted - 1][1]
+
+
+def _end_to_end(points: Points, others: list[Points]) -> Points:
+    """Join the part of `others` that lies nearest to an end of the points, and take it out of them."""
+    ways = [
+        (float(np.hypot(*(points[end] - other[start]))), k, end, start)
+        for k, other in enumerate(others)
+        for end in (0, -1)
+        for start in (0, -1)
+    ]
+    _, k, end, start = min(ways)
+    other = others.pop(k)
+    if end == 0:
+        return np.concatenate((other if start == -1 else other[::-1], points))
+    return np.concatenate((points, other if start == 0 else other[::-1]))
+
+
+def vampire(path: Path, choice: Choice) -> Content:
     """VAMPIRE: four header lines, then rows with y and z of the left and the right profile, in mm from the track's centre."""
-    heads = [line.strip().upper() for line in lines[:4]]
+    lines = list(_lines(path, choice))
+    heads = [line.strip().upper() for _, line in lines[:4]]
     if len(heads) < 4 or heads[0] not in ("WHEELPROFILE", "RAILPROFILE"):
         raise ContactError(
             f"path = {str(path)!r}: the first line is neither WHEELPROFILE nor RAILPROFILE, as in VAMPIRE"
         )
-    columns_of_side = slice(0, 2) if side == "left" else slice(2, 4)
-    rows = []
-    for number, line in enumerate(lines[4:], 5):
-        text = re.split(r'["!%]', line)[0].strip()
-        if text:
-            row = _numbers(text, number, path)
-            if len(row) < 4:
-                raise ContactError(f"path = {str(path)!r}, line {number}: {text[:40]!r} is not y, z of both sides")
-            rows.append(row[columns_of_side])
-    if not rows:
-        raise ContactError(f"path = {str(path)!r} holds no columns of numbers")
+    chosen_columns = (1, 2) if choice.side == "left" else (3, 4)
+    try:
+        points, told = _points(
+            lines[4:], path, replace(choice, columns=chosen_columns), heading=False, quotes=True, needed=4
+        )
+    except ContactError as error:
+        raise ContactError(str(error).replace("not a point y, z", "not y, z of both sides")) from None
     datum = 0.0
     if heads[0] == "WHEELPROFILE":
         back = {"EUROPEAN": 70.0 * MM, "US1": (2.0 + 27.0 / 32.0) * INCH, "US2": (3.0 + 1.0 / 16.0) * INCH}
         _, *place = heads[2].split()
         if place[:1] == ["CUSTOM"] and len(place) > 1:
-            from_back = _numbers(f"{place[1]} 0", 3, path)[0] * MM
+            from_back = _number(place[1], 3, path) * MM
         elif place[:1] and place[0] in back:
             from_back = back[place[0]]
         else:
             raise ContactError(
                 f"path = {str(path)!r}, line 3: {heads[2]!r} is no TREADDATUM; allowed: {', '.join(back)}, CUSTOM mm"
             )
-        datum = 0.5 * _numbers(f"{heads[3].removeprefix('FLANGEBACK')} 0", 4, path)[0] * MM + from_back
-        datum = -datum if side == "left" else datum
-    return Content(np.array(rows), MM, outwards=side != "left", datum=datum)
+        datum = 0.5 * _number(heads[3].removeprefix("FLANGEBACK"), 4, path) * MM + from_back
+        datum = -datum if choice.side == "left" else datum
+    return Content(points, MM, outwards=choice.side != "left", datum=datum, told=told)
 
 
-def gensys(lines: Sequence[str], path: Path, side: str) -> Content:
+def gensys(path: Path, choice: Choice) -> Content:
     """GENSYS: columns in mm with y to the track's centre, whichever side, and z down."""
-    return replace(columns(lines, path, side), unit=MM, outwards=False, downwards=True)
+    return replace(columns(path, choice), unit=MM, outwards=False, downwards=True)
 
 
 FORMATS: dict[str, Format] = {
@@ -187,37 +240,91 @@ FORMATS: dict[str, Format] = {
     ".prr": Format(simpack, "rail"),
     ".whl": Format(miniprof, "wheel"),
     ".ban": Format(miniprof, "rail"),
-    ".mpt": Format(miniprof_sections),
-    ".whe": Format(vampire, "wheel"),
-    ".rai": Format(vampire, "rail"),
+    ".mpt": Format(miniprof_sections, choices=("columns", "rows", "section")),
+    ".whe": Format(vampire, "wheel", choices=("rows",)),
+    ".rai": Format(vampire, "rail", choices=("rows",)),
     ".wheel": Format(gensys, "wheel"),
     ".rail": Format(gensys, "rail"),
 }
 COLUMNS = Format(columns, complete=False)
 
 
-def _numbers(text: str, number: int, path: Path) -> list[float]:
-    """Return the numbers of a row, at least two. Decimal commas are recognised by another separator of the columns."""
-    words = [word.strip(",") for word in re.split(r"[;\s]+", text) if word.strip(",")]
-    pair = words[:2]
-    if len(pair) == 2 and any(map(_NUMBER_WITH_COMMA.fullmatch, pair)) and all(map(_NUMBER.fullmatch, pair)):
-        words = [word.replace(",", ".") for word in words]
-    else:
-        words = text.replace(",", " ").replace(";", " ").split()
-    try:
-        values = [float(word) for word in words]
-    except ValueError:
-        values = []
-    if len(values) < 2 or not np.isfinite(values[:2]).all():
-        raise ContactError(f"path = {str(path)!r}, line {number}: {text[:40]!r} is not a point y, z")
-    return values
+def _lines(path: Path, choice: Choice) -> Iterable[tuple[int, str]]:
+    """Return the chosen lines of a file with their numbers."""
+    lines = list(enumerate(lines_of(path), 1))
+    if choice.rows is None:
+        return lines
+    first, last = choice.rows
+    if first > len(lines):
+        raise ContactError(f"rows = {choice.rows}: {path.name!r} has {len(lines)} lines")
+    return lines[first - 1 : last or None]
 
 
-def _require_clear_commas(text: str, number: int, path: Path) -> None:
-    """Raise a ContactError for a row like 1,5,2,5, which may be two or four numbers."""
-    word = text.strip(", ")
-    if word.count(",") in (3, 5) and re.fullmatch(r"[+-]?\d+(,[+-]?\d+)+", word):
-        raise ContactError(
-            f"path = {str(path)!r}, line {number}: {text[:40]!r}: commas may be decimal or separate columns; separate the "
-            f"columns by semicolons or blanks"
-        )
+def _points(
+    lines: Iterable[tuple[int, str]],
+    path: Path,
+    choice: Choice,
+    *,
+    heading: bool = True,
+    quotes: bool = False,
+    needed: int = 2,
+) -> tuple[Points, tuple[Finding, ...]]:
+    """Return the points in some lines, and what was left out of them."""
+    where = f"path = {str(path)!r}"
+    rows = rows_of(lines, where, quotes=quotes, heading=heading, columns=choice.columns, needed=needed)
+    told = [Finding(Fault.FILE, seen, cure, np.empty((0, 2))) for seen, cure in rows.told]
+    return left_out(rows.values, [f"line {k} {text!r}" for k, text in rows.lines], tuple(told))
+
+
+def left_out(values: Points, named: Sequence[str], told: tuple[Finding, ...]) -> tuple[Points, tuple[Finding, ...]]:
+    """Return the points without false rows, and `told` with a finding of these; `named` are the rows in messages."""
+    false = false_rows(values)
+    if false.any():
+        shown = [named[k] for k in np.flatnonzero(false)[:_SHOWN]]
+        more = "" if np.count_nonzero(false) <= _SHOWN else " …"
+        seen = f"{np.count_nonzero(false)} of {len(values)} rows are no points of the profile: {', '.join(shown)}{more}"
+        told = (Finding(Fault.FALSE, seen, "they were left out", values[:0]), *told)
+    return values[~false], told
+
+
+def _number(word: str, k: int, path: Path) -> float:
+    value = number(word)
+    if value is None or not np.isfinite(value):
+        raise ContactError(f"path = {str(path)!r}, line {k}: {word.strip()[:40]!r} is not a number")
+    return value
+
+
+def as_choice(
+    side: str,
+    columns: Sequence[int] | None = None,
+    rows: Sequence[int] | None = None,
+    section: int | str | None = None,
+) -> Choice:
+    """Return the options as a choice.
+
+    Raises
+    ------
+    ContactError
+        For columns that are not two different numbers from 1 on, and rows that are not two lines in order.
+    """
+    if columns is not None and (len(columns) != 2 or not all(map(_counts, columns)) or columns[0] == columns[1]):
+        raise ContactError(f"columns = {columns!r} is not two different numbers of columns, from 1 on")
+    if rows is not None and (
+        len(rows) != 2 or not _counts(rows[0]) or not (rows[1] == 0 or (_counts(rows[1]) and rows[1] >= rows[0]))
+    ):
+        raise ContactError(f"rows = {rows!r} is not the first and the last line, from 1 on; 0 as the last is the end")
+    if isinstance(section, str) and section.isdigit():  # from the command line
+        section = int(section)
+    if section is not None and section != "joined" and not _counts(section):
+        raise ContactError(f"section = {section!r} is neither 'joined' nor a number from 1 on")
+    return Choice(
+        side,
+        None if columns is None else (int(columns[0]), int(columns[1])),
+        None if rows is None else (int(rows[0]), int(rows[1])),
+        section,
+    )
+
+
+def _counts(value: object) -> bool:
+    """Return whether a value is an integer from 1 on."""
+    return isinstance(value, int) and not isinstance(value, bool) and value > 0

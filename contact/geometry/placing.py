@@ -1,7 +1,4 @@
-"""Put the points of a profile file into the right-side convention, and refuse what cannot be a wheel or a rail.
-
-A point less than a micrometre from the previous one is dropped, because the tangent between them would be noise.
-"""
+"""Put the points of a profile file into the right-side convention, and refuse what cannot be a wheel or a rail."""
 
 from __future__ import annotations
 
@@ -10,15 +7,19 @@ from pathlib import Path
 import numpy as np
 
 from contact.errors import ContactError
-from contact.geometry import inspection
-from contact.geometry.formats import Content, Points
+from contact.geometry import inspection, repair
+from contact.geometry.formats import Content
+from contact.geometry.inspection import Points
 from contact.geometry.shape import Kind
 
-NEAREST = 1e-6  # least distance of two points [m]
 
+def placed(
+    points: Points, content: Content, kind: Kind, path: Path, zero: str | float | None, scale: float = 1.0
+) -> Points:
+    """Return the points [m] from the gauge or flange side to the field side, with z down, about the zero of this library.
 
-def placed(points: Points, content: Content, kind: Kind, path: Path, zero: str | None) -> Points:
-    """Return the points [m] from the gauge or flange side to the field side, with z down, about the zero of this library."""
+    `zero` is the option of `contact.geometry.files.read`, `scale` that of a model.
+    """
     if not content.downwards:
         points = _downwards(points, kind)
     outwards = _is_outwards(points) if content.outwards is None else content.outwards
@@ -31,19 +32,21 @@ def placed(points: Points, content: Content, kind: Kind, path: Path, zero: str |
         zero is None
         and kind == "wheel"
         and path.suffix.lower() in (".whl", ".mpt")
-        and points[:, 0].min() > -0.5 * inspection.FLANGE_BACK
+        and points[:, 0].min() > -0.5 * inspection.FLANGE_BACK * scale
     ):
         zero = "flange_back"
     if zero == "flange_back":
+        zero = inspection.FLANGE_BACK * scale
+    if isinstance(zero, int | float):
         if kind == "rail":
-            raise ContactError(f"zero = 'flange_back': {path.name!r} holds a rail; allowed: 'file', 'shape'")
-        return points - [inspection.FLANGE_BACK, 0.0]
-    return points - _origin(points, kind, path) if zero == "shape" else points
+            raise ContactError(f"zero = {zero!r}: {path.name!r} holds a rail, which has no back of a flange")
+        return points - [zero, 0.0]
+    return points - scale * _origin(points / scale, kind, path) if zero == "shape" else points
 
 
 def require_plausible(points: Points, kind: Kind, path: Path, unit: float) -> None:
-    """Raise a ContactError for an implausible width, the shape of the other kind, a profile upside down, or a flange on the
-    wrong side. `unit` is that of the file [m]."""
+    """Raise a ContactError for an impossible width, the shape of the other kind, a profile upside down, or a flange on the
+    wrong side. `unit` is that of the file [m]. The points are those of full size."""
     if fault := inspection.misplaced(points, kind, unit):
         seen, cure, _ = fault
         raise ContactError(f"path = {str(path)!r}: {seen}; {cure}")
@@ -91,8 +94,4 @@ def _ordered(points: Points) -> Points:
     """Return the points from the end with low y to the other, without points that nearly coincide with the previous one."""
     if len(points) > 1 and points[0, 0] > points[-1, 0]:
         points = points[::-1]
-    kept = [points[0]]
-    for point in points[1:]:
-        if np.hypot(*(point - kept[-1])) > NEAREST:
-            kept.append(point)
-    return np.array(kept)
+    return repair.distinct(points)

@@ -27,10 +27,11 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from contact.arrays import Array
-from contact.errors import ContactError
-from contact.geometry.files import UNITS, lines_of
-from contact.geometry.formats import columns, simpack
+from contact.errors import ContactError, ProfileWarning, warn
+from contact.geometry.files import UNITS
+from contact.geometry.formats import Choice, columns, simpack
 from contact.geometry.surfaces.surface import MOST_SLICES, RailSurface, WheelSurface
+from contact.text import lines_of
 
 Rail = TypeVar("Rail", bound=RailSurface)
 Wheel = TypeVar("Wheel", bound=WheelSurface)
@@ -226,14 +227,16 @@ def _take(stream: Iterator[float], count: int, what: str, path: Path) -> Sequenc
 
 def _points(path: Path, suffix: str, scale: float, mirrored: tuple[bool, bool]) -> Array:
     """Return the points of one slice [m]: of a rail from the gauge to the field side, of a wheel from field side to flange."""
-    lines = lines_of(path)
     if path.suffix.lower() in (_RAIL, _WHEEL):
         if path.suffix.lower() != suffix:
             raise ContactError(f"path = {str(path)!r} is not a file of a {'rail' if suffix == _RAIL else 'wheel'}")
-        content = simpack(lines, path, "right")
+        content = simpack(path, Choice())
         points = content.points * (content.unit or scale)
     else:
-        points = columns(lines, path, "right").points * scale
+        content = columns(path, Choice())
+        points = content.points * scale
+    for finding in content.told:
+        warn(f"{path.name}: {finding}", ProfileWarning)
     points = points * np.where(mirrored, -1.0, 1.0)
     wanted = points[-1, 0] > points[0, 0] if suffix == _RAIL else points[-1, 0] < points[0, 0]
     points = points if wanted else points[::-1]
