@@ -74,7 +74,10 @@ def fmu(
         **vars(reading),
     }
     repair, rotation = options.pop("profile_repair"), options.pop("profile_rotation")
+    pairs = {name: options.pop(name) for name in ("profile_columns", "profile_rows")}
     words = [f"--{name.replace('_', '-')}={value}" for name, value in options.items() if value is not None]
+    for name, pair in pairs.items():
+        words += [f"--{name.replace('_', '-')}", *map(str, pair)] if pair else []
     words += ["--profile-rotation", *map(str, rotation)]
     switches = {
         "--accumulation": accumulation,

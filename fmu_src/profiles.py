@@ -111,7 +111,19 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     )
     parser.add_argument("--profile-unit", choices=profile.UNITS, help="unit of the profile files, for plain columns")
     parser.add_argument("--profile-side", choices=profile.SIDES, help="side that the files show, for plain columns")
-    parser.add_argument("--profile-zero", choices=profile.ZEROS, help="zero of the profile files")
+    parser.add_argument(
+        "--profile-zero", help=f"zero of the profile files: {', '.join(profile.ZEROS)}, or a distance in m"
+    )
+    parser.add_argument("--profile-scale", type=float, default=1.0, metavar="0.2", help="scale of profiles of a model")
+    parser.add_argument("--profile-columns", type=int, nargs=2, metavar=("Y", "Z"), help="columns of y and z, from 1")
+    parser.add_argument(
+        "--profile-rows",
+        type=int,
+        nargs=2,
+        metavar=("FIRST", "LAST"),
+        help="lines that are read; 0 as the last: to the end",
+    )
+    parser.add_argument("--profile-section", metavar="1|joined", help="which list of points of a file that has several")
     parser.add_argument(
         "--profile-repair", action="store_true", help="sort rows, keep one scan, drop spikes and back steps"
     )

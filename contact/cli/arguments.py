@@ -25,6 +25,10 @@ class Reading:
     profile_unit: opt.Unit = None
     profile_side: opt.Drawn = None
     profile_zero: opt.Zero = None
+    profile_scale: opt.Scale = 1.0
+    profile_columns: opt.Columns = None
+    profile_rows: opt.Rows = None
+    profile_section: opt.Section = None
     profile_repair: opt.Repair = False
     profile_smoothing: opt.Smoothing = None
     profile_wavelength: opt.Wavelength = None

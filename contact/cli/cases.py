@@ -24,9 +24,19 @@ from contact.errors import ContactError, require_number
 from contact.separation import Separation
 from contact.study import Case
 
-_TEXTS = ("name", "wheel", "rail", "inclination", "profile_unit", "profile_side", "profile_zero", "side")
+_TEXTS = (
+    "name",
+    "wheel",
+    "rail",
+    "inclination",
+    "profile_unit",
+    "profile_side",
+    "profile_zero",
+    "profile_section",
+    "side",
+)
 _NUMBERS = (
-    *("profile_smoothing", "profile_wavelength", "radius", "gauge", "back_to_back"),
+    *("profile_scale", "profile_smoothing", "profile_wavelength", "radius", "gauge", "back_to_back"),
     *("y", "roll", "yaw", "speed", "load", "penetration", "friction"),
 )
 _SWITCHES = {"profile_repair": {"true": True, "false": False}}

@@ -20,7 +20,7 @@ _NAMES = {
     "m": "station wheel_z x z origin flat flat_depth begin end spacing step offset roller_radius deflection_y deflection_z "
     "curve_radius smallest_radius needed available "
     "y radius gauge back_to_back left_radius reach amplitude penetration approach profile_smoothing "
-    "profile_wavelength smoothing wavelength centre position rolling_radius length width radius_difference right_on_wheel "
+    "profile_zero profile_wavelength smoothing wavelength centre position rolling_radius length width radius_difference right_on_wheel "
     "right_on_rail right_radius left_on_wheel left_on_rail distance at mileage",
     "rad": "rotation turned profile_rotation pitch roll yaw angle contact_angle angle_difference right_angle left_angle",
     "m/s": "speed velocity",
@@ -37,8 +37,8 @@ _NAMES = {
     "m/m": "usfd archard_depth_max",
     "m³/m": "archard_volume",
     "s": "seconds every duration time damping",
-    "1": "friction inclination slip_ratio utilisation longitudinal lateral conicity slope share gap_error fatigue_index "
-    "burstow index poisson_ratio coupling errors.force errors.moment errors.N errors.approach "
+    "1": "friction profile_scale inclination slip_ratio utilisation longitudinal lateral conicity slope share gap_error "
+    "fatigue_index burstow index poisson_ratio coupling errors.force errors.moment errors.N errors.approach "
     "errors.max_pressure errors.area errors.pressure",
     "1, 1, 1/m": "creepage",
     "m, m, rad": "shift",

@@ -51,7 +51,24 @@ Rotation = Annotated[
 ]
 Unit = Annotated[str | None, in_profiles(help=f"unit of profile files: {', '.join(profile.UNITS)}")]
 Drawn = Annotated[str | None, in_profiles(help=f"side that profile files show: {', '.join(profile.SIDES)}")]
-Zero = Annotated[str | None, in_profiles(help=f"zero of profile files: {', '.join(profile.ZEROS)}")]
+Zero = Annotated[
+    str | None,
+    in_profiles(
+        help=f"zero of profile files: {', '.join(profile.ZEROS)}, or the distance of the tape circle from the back of the "
+        "flange in m"
+    ),
+]
+Scale = Annotated[float, in_profiles(help="scale of profiles of a model, like 0.2 for a roller rig of 1:5")]
+Columns = Annotated[
+    tuple[int, int] | None, in_profiles(help="columns of y and z in profile files, from 1", metavar="Y Z")
+]
+Rows = Annotated[
+    tuple[int, int] | None,
+    in_profiles(help="first and last line of profile files; 0 as the last is the end", metavar="FIRST LAST"),
+]
+Section = Annotated[
+    str | None, in_profiles(help="which list of points of a profile file that has several: a number, or joined")
+]
 Repair = Annotated[
     bool, in_profiles("--profile-repair", help="sort rows, keep one scan, drop spikes and back steps of profile files")
 ]

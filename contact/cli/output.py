@@ -63,6 +63,11 @@ def reported(command: Command) -> Command:
 def in_options(text: str, given: Mapping[str, Any]) -> str:
     """Return a message with the options of the command line in place of names of Python. `given` are the command's inputs."""
     text = re.sub(r"\brepair=True", "--profile-repair", text)
+    text = re.sub(
+        r"\b(rows|columns)=\((\w+), (\w+)\)",
+        lambda found: f"--profile-{found[1]} {found[2].upper()} {found[3].upper()}",
+        text,
+    )
     text = re.sub(r"\brotated\((\S+)\) turns the wheel", r"--profile-rotation \1 0 turns the wheel", text)
     text = re.sub(r"\brotated\((\S+)\) turns the rail", r"--profile-rotation 0 \1 turns the rail", text)
     text = text.replace(" (throw=False returns the solution with this status)", "")
@@ -71,7 +76,7 @@ def in_options(text: str, given: Mapping[str, Any]) -> str:
     if found := re.search(r"\b(?:(?:kind|unit|side) = None(?:, )?)+: ", text):
         missing = [f"--profile-{name}" for name in re.findall(r"(\w+) = None", found[0])]
         text = text.replace(found[0], f"{', '.join(missing)} {'are' if len(missing) > 1 else 'is'} missing: ")
-    text = re.sub(r"\bset (unit|side)\b", r"set --profile-\1", text)
+    text = re.sub(r"\bset (unit|side|section)\b", r"set --profile-\1", text)
     return re.sub(
         rf"\b({'|'.join(map(re.escape, _OPTIONS))}) = ([-+.\de]*\d)", lambda found: _typed(found, given), text
     )

@@ -22,6 +22,7 @@ STANDARD_LOAD = 80e3  # load [N] if neither load nor penetration is given
 OF_A_POSITION = frozenset(
     {
         *("wheel", "rail", "inclination", "profile_unit", "profile_side", "profile_zero", "profile_repair"),
+        *("profile_scale", "profile_columns", "profile_rows", "profile_section"),
         *("profile_smoothing", "profile_wavelength", "profile_rotation", "gauge", "back_to_back"),
         *("side", "y", "roll", "yaw", "conformal"),
     }

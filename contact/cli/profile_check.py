@@ -28,6 +28,10 @@ def check(
     profile_unit: opt.Unit = None,
     profile_side: opt.Drawn = None,
     profile_zero: opt.Zero = None,
+    profile_scale: opt.Scale = 1.0,
+    profile_columns: opt.Columns = None,
+    profile_rows: opt.Rows = None,
+    profile_section: opt.Section = None,
     profile_repair: opt.Repair = False,
     profile_smoothing: opt.Smoothing = None,
     profile_wavelength: opt.Wavelength = None,
@@ -41,6 +45,7 @@ def check(
     prepare(out)
     options = {
         **{"kind": kind, "unit": profile_unit, "side": profile_side, "zero": profile_zero},
+        **{"scale": profile_scale, "columns": profile_columns, "rows": profile_rows, "section": profile_section},
         **{"repair": profile_repair, "smoothing": profile_smoothing, "wavelength": profile_wavelength},
     }
     found, unread = [], []

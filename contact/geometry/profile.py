@@ -40,7 +40,7 @@ def load(
     rotation : float
         Angle about x by which the outline is turned [rad], positive from y to the field side towards z down.
     options
-        For files, as for `read`.
+        For files, as for `read`. `scale` also makes a model of a standard profile.
 
     Raises
     ------
@@ -56,4 +56,6 @@ def load(
         rotation -= turned
     else:
         found = named(name, kind=kind, inclination=rail_inclination)
+        if (scale := require_number("scale", options.get("scale", 1.0), 0.01, 2.0)) != 1.0:
+            found = Profile(kind, scale * found.y, scale * found.z, found.angle, f"{found.name}, scale {scale:g}")
     return found.rotated(rotation) if rotation else found

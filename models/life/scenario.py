@@ -45,7 +45,8 @@ class Profiles:
     left_rail : the left rail, mirrored to the right side, where it differs from the right one
     inclination : of a rail, a number or "1/40"; of EN 13674-1 1/40 by default, in a file as it lies there
     wheel_rotation, rail_rotation : angles about x by which they are turned [rad], positive from the field side down
-    unit, side, zero, repair, smoothing, wavelength : for files, as for `contact.geometry.profile.read`
+    unit, side, zero, scale, columns, rows, section, repair, smoothing, wavelength : for files, as for
+        `contact.geometry.profile.read`
     """
 
     wheel: str = "S1002"
@@ -56,7 +57,11 @@ class Profiles:
     rail_rotation: float = 0.0
     unit: str | None = None
     side: str | None = None
-    zero: str | None = None
+    zero: str | float | None = None
+    scale: float = 1.0
+    columns: tuple[int, ...] | None = None
+    rows: tuple[int, ...] | None = None
+    section: int | str | None = None
     repair: bool = False
     smoothing: float | None = None
     wavelength: float | None = None

@@ -1,5 +1,6 @@
 """Outlines of whole rails are cut to the head, models keep their size, files of several lists let choose."""
 
+import itertools
 import warnings
 
 import numpy as np
@@ -19,7 +20,7 @@ def section(spacing=0.5):
     head = [(1e3 * y, 1e3 * z) for y, z in zip(UPRIGHT.y, UPRIGHT.z, strict=True)]
     corners = [(-y, z) for y, z in half][::-1] + head + half
     found = [corners[0]]
-    for a, b in zip(corners[:-1], corners[1:], strict=True):
+    for a, b in itertools.pairwise(corners):
         n = max(int(np.hypot(b[0] - a[0], b[1] - a[1]) / spacing), 1) if spacing else 1
         found += [tuple(np.add(a, np.subtract(b, a) * k / n)) for k in range(1, n + 1)]
     return np.array(found)
@@ -59,7 +60,7 @@ def test_the_outline_of_a_wheels_rim_is_refused_by_that_reason(tmp_path):
     path = tmp_path / "rim.csv"
     path.write_text(table(np.concatenate((y, inner)), np.concatenate((z, np.full(200, -60.0))), "{:.7f};{:.7f}"))
     for repair in (False, True):
-        with pytest.raises(ContactError, match="closed outline: the points run round a body .* running surface only"):
+        with pytest.raises(ContactError, match=r"closed outline: the points run round a body .* running surface only"):
             profile.read(path, repair=repair, **COLUMNS)
     assert profile.check(path, **COLUMNS).profile is None
     same(profile.read(path, rows=(1, WHEEL.y.size), **COLUMNS), WHEEL, 1e-7)
@@ -114,7 +115,7 @@ def test_of_two_bodies_in_one_file_one_is_chosen(tmp_path):
     for wrong in (3, "both", 0):
         with pytest.raises(ContactError, match="section = "):
             profile.read(path, kind="wheel", section=wrong)
-    with pytest.raises(ContactError, match="section = 1: a file like 'a.txt' has no choice of section"):
+    with pytest.raises(ContactError, match=r"section = 1: a file like 'a.txt' has no choice of section"):
         profile.read(tmp_path / "a.txt", section=1, **COLUMNS)
 
 
