@@ -19,8 +19,8 @@ import contact
 _NAMES = {
     "m": "station wheel_z x z origin flat flat_depth begin end spacing step offset roller_radius deflection_y deflection_z "
     "curve_radius smallest_radius needed available "
-    "y radius gauge back_to_back left_radius reach amplitude penetration approach profile_smoothing "
-    "profile_zero profile_wavelength smoothing wavelength centre position rolling_radius length width radius_difference right_on_wheel "
+    "y radius gauge back_to_back left_radius reach amplitude penetration approach profile_smoothing profile_zero "
+    "profile_wavelength smoothing wavelength centre position rolling_radius length width radius_difference right_on_wheel "
     "right_on_rail right_radius left_on_wheel left_on_rail distance at mileage",
     "rad": "rotation turned profile_rotation pitch roll yaw angle contact_angle angle_difference right_angle left_angle",
     "m/s": "speed velocity",
