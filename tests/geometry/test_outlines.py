@@ -30,7 +30,9 @@ def section(spacing=0.5):
 @pytest.mark.parametrize("backwards", [False, True])
 @pytest.mark.parametrize("up", [1.0, -1.0])
 @pytest.mark.parametrize("spacing", [0.5, 2.0, None])
-def test_the_outline_of_a_rail_is_cut_to_its_head_from_every_start_and_either_way(start, backwards, up, spacing, tmp_path):
+def test_the_outline_of_a_rail_is_cut_to_its_head_from_every_start_and_either_way(
+    start, backwards, up, spacing, tmp_path
+):
     points = section(spacing)[:-1]
     points = np.roll(points, -int(start * len(points)), axis=0)
     points = np.concatenate((points, points[:1])) * [1.0, up]
