@@ -174,7 +174,11 @@ def forces(
     def column(name: str) -> Array:
         return np.ascontiguousarray(results[name]).reshape(shape)
 
-    doubt_gap(float(results["gap_error"].max(initial=0.0)), method.gap_limit)
+    if count:
+        worst = int(results["gap_error"].argmax())
+        doubt_gap(
+            float(results["gap_error"][worst]), method.gap_limit, separations[which[worst]].told, "gap in an array"
+        )
     area = column("area")
     slip_ratio = np.divide(column("slip_area"), area, out=np.zeros(shape), where=area > 0.0)
     return Forces(

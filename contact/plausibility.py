@@ -90,11 +90,23 @@ def doubt_combined(coupling: float) -> None:
         )
 
 
-def doubt_strips(bend: float, largest: float, conformal: bool) -> None:
+def _once(told: set[str], reason: str, text: str) -> None:
+    """Warn for a reason that is not yet in `told`, the reasons for which an object has warned.
+
+    The text has a number that changes from call to call, so Python would show it at every call of a loop.
+    """
+    if reason not in told:
+        warn(text, ModelWarning)
+        told.add(reason)
+
+
+def doubt_strips(bend: float, largest: float, conformal: bool, told: set[str]) -> None:
     """Warn of a patch over which the contact angle changes by `bend` [rad], more than `largest`, solved on strips."""
     if bend > largest:
         limit = f"{math.degrees(largest):.0f}°"
-        warn(
+        _once(
+            told,
+            "bent, conformal" if conformal else "bent",
             f"the contact angle changes by {math.degrees(bend):.0f}° over the patch. "
             + (
                 f"Above {limit} strips with conformal = True, which have the influence numbers of a plane, are 0.02 to 0.06 "
@@ -105,18 +117,18 @@ def doubt_strips(bend: float, largest: float, conformal: bool) -> None:
                 "out, and creep forces change by 0.03 of friction times load in the median (limits.md); "
                 "conformal = True has both"
             ),
-            ModelWarning,
         )
 
 
-def doubt_gap(gap_error: float, limit: float) -> None:
+def doubt_gap(gap_error: float, limit: float, told: set[str], reason: str = "gap") -> None:
     """Warn of a `gap_error` above the limit of its method."""
     if gap_error > limit:
-        warn(
+        _once(
+            told,
+            reason,
             f"gap_error = {gap_error:.2g}: the pressure leaves gaps or overlaps inside the patch. Above {limit:g} the largest "
             "pressure is more than 5 % wrong on most patches (limits.md); normal = tangential = "
             "'halfspace' solves the patch",
-            ModelWarning,
         )
 
 

@@ -63,7 +63,7 @@ class Separation:
     893
     """
 
-    __slots__ = ("A", "g", "packed", "rolling", "samples", "tilt", "x_c", "y")
+    __slots__ = ("A", "g", "packed", "rolling", "samples", "tilt", "told", "x_c", "y")
 
     y: NDArray[np.float64]
     g: NDArray[np.float64]
@@ -73,6 +73,7 @@ class Separation:
     rolling: float
     samples: Samples  # the arrays as kernels use them
     packed: Packed  # the same as the library takes them
+    told: set[str]  # for what there was a ModelWarning; those of a pair share it
 
     def __init__(
         self,
@@ -128,7 +129,8 @@ class Separation:
         return other
 
     def _lay_out(self) -> None:
-        """Make the arrays read-only and set `samples` and `packed`."""
+        """Make the arrays read-only and set `samples`, `packed` and `told`."""
+        self.told = set()
         self.samples = Samples(self.y, self.g, self.A, self.x_c, self.tilt)
         for array in self.samples:
             array.setflags(write=False)

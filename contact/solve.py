@@ -314,6 +314,7 @@ class _StripProblem(NamedTuple):
         """Return the solution. `coefficients` are C11, C22, C23 to use instead of those of linear theory."""
         key = self.normal, tangential, *self.size, self.material, self.conformal, self.max_iterations, coefficients
         solver = _lent(key, self.friction, self.speed)
+        solver.told = self.separation.told  # the solver is not the user's, the separation is
         try:
             if self.start is not None:
                 solver.start_from(self.start)

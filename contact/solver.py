@@ -125,6 +125,7 @@ class Solver(OwnsArrays):
         self._member = {name: self._case[name] for name in self._case.dtype.names or ()}
         self._result = np.zeros(1, RESULT)
         self.doubted = False  # whether the arguments of a call were judged
+        self.told: set[str] = set()  # for what there was a ModelWarning
         self._status, self._bend = self._result["status"], self._result["bend"]
         self._bounds = np.zeros(2, np.int64)  # of the only separation
         self._problem = pack(Integers, self._bounds), pack(Integers, np.zeros(1, np.int64)), pack(Cases, self._case)
@@ -250,8 +251,8 @@ class Solver(OwnsArrays):
         prepared = Prepared(self.normal.name, self.tangential.name, self.material, self._speed)
         if throw:
             require_trustworthy(Status(self._status[0]), separation.y, load, approach)
-        doubt_strips(float(self._bend[0]), BEND, self.conformal)
-        doubt_gap(float(self._result["gap_error"][0]), self.normal.gap_limit)
+        doubt_strips(float(self._bend[0]), BEND, self.conformal, self.told)
+        doubt_gap(float(self._result["gap_error"][0]), self.normal.gap_limit, self.told)
         return Solution.of_kernel(n, self._full, self._numbers, creepage, prepared, jacobian)
 
     @one_thread

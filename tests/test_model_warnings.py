@@ -74,6 +74,51 @@ def test_a_wide_bent_patch_in_the_plane_gives_a_warning():
         contact.solve(bent(20.0), ROLLING, load=5e4)
 
 
+def model_warnings(call):
+    """Return the ModelWarnings of a call, every one that is given."""
+    with warnings.catch_warnings(record=True) as found:
+        warnings.simplefilter("always")
+        call()
+    return [str(each.message) for each in found if each.category is ModelWarning]
+
+
+def test_each_object_warns_once_for_each_reason():
+    """The text has a number, so Python would show it a hundred times in a loop."""
+    geometry = Pair(profile.s1002(), profile.rail_60e1(inclination=1 / 40))
+    poses = [Pose(y=7.5e-3 + 1e-5 * k, yaw=30e-3) for k in range(8)]
+    for make in (WheelRailPair, lambda pair: WheelRailPair(pair, conformal=True)):
+        for one in (make(geometry), make(geometry)):
+            told = model_warnings(lambda one=one: [one.solve(pose, load=8e4) for pose in poses])
+            assert [text.partition(" ")[0] for text in told] == ["gap_error"]
+    bend = [bent(250.0), bent(260.0)]
+    solver = contact.Solver()
+    assert len(model_warnings(lambda: [solver.solve(gap, ROLLING, load=5e4) for gap in bend])) == 1
+    assert len(model_warnings(lambda: [contact.Solver().solve(bend[0], ROLLING, load=5e4) for _ in range(2)])) == 2
+    each = [lambda gap=gap: contact.solve(gap, ROLLING, load=5e4) for gap in bend for _ in range(3)]
+    assert [len(model_warnings(call)) for call in each] == [1, 0, 0, 1, 0, 0]
+    assert len(model_warnings(lambda: contact.solve(bend[0], ROLLING, load=5e4, conformal=True))) == 1
+
+
+def test_all_patches_of_a_pair_warn_once():
+    for pair in (Pair(profile.s1002(), profile.rail_60e1(inclination=1 / 40)) for _ in range(2)):
+        patches = [pair.contacts(Pose(y=7.5e-3 + 1e-5 * k, yaw=30e-3), load=8e4)[0] for k in range(4)]
+        told = model_warnings(
+            lambda patches=patches: [contact.solve(p.separation, p.creepage, load=8e4, throw=False) for p in patches]
+        )
+        assert len(told) == 1
+    gaps = [p.separation for p in patches]
+    assert len(model_warnings(lambda: [contact.forces(gaps, ROLLING, load=8e4) for _ in range(3)])) == 1
+
+
+def test_a_warning_that_is_an_error_is_raised_again():
+    solver = contact.Solver()
+    with warnings.catch_warnings():
+        warnings.simplefilter("error", ModelWarning)
+        for _ in range(2):
+            with pytest.raises(ModelWarning):
+                solver.solve(bent(250.0), ROLLING, load=5e4)
+
+
 def test_a_pressure_that_leaves_gaps_is_told():
     """Two humps along the strips: the largest pressure is 20 % low at status OK."""
     pair, pose = Pair(profile.s1002(), profile.rail_60e1(inclination=1 / 40)), {"y": 7.5e-3, "yaw": 30e-3}

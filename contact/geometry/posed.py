@@ -39,6 +39,7 @@ class Posed(OwnsArrays):
         self._mirror = 1.0 if side == "right" else -1.0
         self.nominal_radius = require_number("nominal_radius", nominal_radius, 0.05, 2.0)
         self._doubted = False
+        self.told: set[str] = set()  # for what there was a ModelWarning
 
     @one_thread
     def given(

@@ -184,8 +184,10 @@ class Pair(Posed):
         y, g, A, x_c, tilt = self.separations[k] if m > 0.0 else self.separations[k][:, ::-1]
         rolling = math.cos(float(p.angle)) / float(p.radius)
         edges = (float(p.low), float(p.high))
+        separation = Separation(m * y, g, A, x_c, m * tilt, rolling)
+        separation.told = self.told
         return Patch(
-            separation=Separation(m * y, g, A, x_c, m * tilt, rolling),
+            separation=separation,
             creepage=Creepage(float(p.vx), m * float(p.vy), m * float(p.phi)),
             angle=m * float(p.angle),
             position=(float(p.x), m * float(p.y), float(p.z)),

@@ -175,6 +175,7 @@ class RollerRig(AnyPair):
         x_c = (s.A * (s.x_c - moved) - curvature * (ahead + moved)) / A
         lower = middle * curvature / (middle + curvature) * ahead**2
         gap = Separation(s.y, s.g + s.A * curvature / A * (s.x_c + ahead) ** 2 - lower, A, x_c, s.tilt, s.rolling)
+        gap.told = s.told
         position = (ahead + moved, *patch.position[1:])
         return replace(patch, separation=gap, creepage=creepage, approach=patch.approach - lower, position=position)
 

@@ -271,7 +271,7 @@ class WheelRailPair(AnyPair):
             self.pair.doubt(pose, velocity, vertical, "vertical")
         jacobian = self._derive(mode, given, load, penetration, vertical) if derivatives else None
         total = numbers(self.bench.total[0])
-        doubt_gap(total.gap_error, self._gap_limit)
+        doubt_gap(total.gap_error, self._gap_limit, self.pair.told)
         return of_kernel(total, self.bench, code, float(given.spin), jacobian)
 
     def _derive(
