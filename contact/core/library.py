@@ -18,6 +18,7 @@ import subprocess
 import sys
 import tempfile
 import time
+import warnings
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from functools import cache
@@ -188,15 +189,18 @@ def build(folder: Path, *options: str) -> Path:
         with contextlib.suppress(OSError):
             os.utime(folder)
         return folder
-    with locked(folder):
-        if not folder.is_dir():
-            made = folder.parent / f"{folder.name}.{os.getpid()}"
-            shutil.rmtree(made, ignore_errors=True)
-            made.mkdir()
-            _run_builder(made, *options)
-            with contextlib.suppress(OSError):  # another process was faster
-                made.rename(folder)
-            shutil.rmtree(made, ignore_errors=True)
+    try:
+        with locked(folder):
+            if not folder.is_dir():
+                made = folder.parent / f"{folder.name}.{os.getpid()}"
+                shutil.rmtree(made, ignore_errors=True)
+                made.mkdir()
+                _run_builder(made, *options)
+                with contextlib.suppress(OSError):  # another process was faster
+                    made.rename(folder)
+                shutil.rmtree(made, ignore_errors=True)
+    except OSError as error:
+        raise _not_writable(folder.parent, error) from None
     _remove_stale(folder.parent)
     return folder
 
@@ -283,20 +287,53 @@ def _has_kernels(path: Path) -> bool:
 def cache_folder() -> Path:
     """Return the folder in which libraries of checkouts are kept: CONTACT_CACHE_DIR if set, else the system's for caches.
 
-    Where that cannot be written, it is a folder of the user among the temporary ones.
+    Where that cannot be written, and does not have this library, it is a folder of the user among the temporary ones.
     """
-    if own := os.environ.get("CONTACT_CACHE_DIR"):
-        return Path(own)
-    if sys.platform == "win32":
-        folder = Path(os.environ.get("LOCALAPPDATA", Path.home() / "AppData" / "Local"))
-    elif sys.platform == "darwin":
-        folder = Path.home() / "Library" / "Caches"
-    else:
-        folder = Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache")
-    existing = next(path for path in (folder, *folder.parents) if path.exists())
-    if os.access(existing, os.W_OK):
+    own = os.environ.get("CONTACT_CACHE_DIR")
+    folder = Path(own) if own else _usual_folder()
+    if folder is not None and (_can_be_written(folder) or (folder / (PREFIX + fingerprint())).is_dir()):
         return folder
-    return Path(tempfile.gettempdir()) / f"wheelrail-contact-{getpass.getuser()}"
+    try:
+        temporary = Path(tempfile.gettempdir()) / f"wheelrail-contact-{_user()}"
+    except OSError as error:
+        raise _not_writable(folder or Path(), error) from None
+    if own:
+        text = f"CONTACT_CACHE_DIR = {own} cannot be written; the library is kept in {temporary}"
+        warnings.warn(text, stacklevel=2)
+    return temporary
+
+
+def _usual_folder() -> Path | None:
+    """Return the system's folder for caches; None for a user without a home."""
+    try:
+        if sys.platform == "win32":
+            return Path(os.environ.get("LOCALAPPDATA") or Path.home() / "AppData" / "Local")
+        if sys.platform == "darwin":
+            return Path.home() / "Library" / "Caches"
+        return Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache")
+    except RuntimeError:
+        return None
+
+
+def _user() -> str:
+    """Return the name of the user, or the number of one that the system does not know, as in containers."""
+    try:
+        return getpass.getuser()
+    except (OSError, KeyError, ImportError):
+        return str(os.getuid()) if hasattr(os, "getuid") else "user"
+
+
+def _can_be_written(folder: Path) -> bool:
+    """Return whether the folder, or the first one above it that is there, takes files."""
+    existing = next((path for path in (folder, *folder.absolute().parents) if path.exists()), folder)
+    return existing.is_dir() and os.access(existing, os.W_OK | os.X_OK)
+
+
+def _not_writable(folder: Path, error: OSError) -> ImportError:
+    return ImportError(
+        f"the library of wheelrail-contact cannot be kept in {folder} ({error.strerror or error}); "
+        "set CONTACT_CACHE_DIR to a folder that can be written"
+    )
 
 
 def _remove_stale(base: Path) -> None:

@@ -157,6 +157,49 @@ local_factors(1.0, 2.0)
     assert "pip install" in done.stderr
 
 
+def test_a_cache_that_cannot_be_written_is_replaced_by_a_temporary_folder(tmp_path, monkeypatch):
+    file = tmp_path / "file"
+    file.touch()
+    temporary = tmp_path / "temporary"
+    temporary.mkdir()
+    monkeypatch.setattr(library.tempfile, "tempdir", str(temporary))
+    monkeypatch.setenv("CONTACT_CACHE_DIR", str(file / "cache"))
+    with pytest.warns(UserWarning, match=rf"CONTACT_CACHE_DIR = {file}/cache cannot be written; .* {temporary}"):
+        assert library.cache_folder().parent == temporary
+    monkeypatch.delenv("CONTACT_CACHE_DIR")
+    monkeypatch.setenv("XDG_CACHE_HOME", str(file))
+    monkeypatch.setattr(library.sys, "platform", "linux")
+    assert library.cache_folder().parent == temporary
+
+    def unknown():
+        raise KeyError("getpwuid(): uid not found: 4711")
+
+    monkeypatch.setattr(library.getpass, "getuser", unknown)
+    assert library.cache_folder().parent == temporary
+
+
+def test_a_cache_that_has_the_library_is_used_though_it_cannot_be_written(tmp_path, monkeypatch):
+    (tmp_path / (library.PREFIX + library.fingerprint())).mkdir()
+    monkeypatch.setattr(library, "_can_be_written", lambda folder: False)
+    monkeypatch.setenv("CONTACT_CACHE_DIR", str(tmp_path))
+    assert library.cache_folder() == tmp_path
+
+
+def test_without_any_folder_for_the_library_a_message_names_the_variable(tmp_path, monkeypatch):
+    file = tmp_path / "file"
+    file.touch()
+    monkeypatch.setenv("CONTACT_CACHE_DIR", str(file))
+    with pytest.raises(ImportError, match=rf"cannot be kept in {file} .*; set CONTACT_CACHE_DIR to a folder"):
+        library.build(file / "library")
+
+    def nowhere():
+        raise FileNotFoundError(2, "No usable temporary directory found")
+
+    monkeypatch.setattr(library.tempfile, "gettempdir", nowhere)
+    with pytest.raises(ImportError, match=r"No usable temporary directory found.*; set CONTACT_CACHE_DIR"):
+        library.cache_folder()
+
+
 def test_a_library_of_another_version_is_named(monkeypatch):
     path = library.get_library()
     with pytest.raises(ImportError, match="built from other sources"):
