@@ -9,9 +9,8 @@ from typing import Any, cast
 import numpy as np
 
 from contact.arrays import Array
-from contact.errors import ContactError
+from contact.errors import ContactError, ProfileWarning, warn
 from contact.geometry import formats, placing
-from contact.geometry.files import lines_of
 from contact.geometry.shape import Profile
 from contact.geometry.smoothing import filtered
 from contact.geometry.surfaces import RailSurface, SurfacePair, WheelSurface
@@ -102,7 +101,9 @@ def body(case: Case, side: str) -> Profile | RailSurface | WheelSurface:
 def _points(path: Path, kind: str, scale: float, mirror_y: bool, mirror_z: int) -> Array:
     """Return the points [m] from the gauge or flange side on, y to the field side and z down."""
     reader = _READERS.get(path.suffix.lower(), formats.columns)
-    content = reader(lines_of(path), path, "right")
+    content = reader(path, formats.Choice("right"))
+    for finding in content.told:
+        warn(f"{path.name}: {finding}", ProfileWarning)
     points = content.points * ((content.unit or 1e-3) * scale)
     if mirror_y:
         points = points * [-1.0, 1.0]
