@@ -8,7 +8,7 @@ from concurrent.futures import ThreadPoolExecutor
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
 from contact import workspace
 from contact.arrays import Array, require_numbers
@@ -106,7 +106,7 @@ def forces(
         raise ContactError("exactly one of load and approach is needed")
     surface, coefficients = (friction, friction.static) if isinstance(friction, Friction) else (None, friction)
     index = np.arange(len(separations)) if not isinstance(separation, Separation) else np.array(0)
-    columns = [
+    columns: list[NDArray[Any]] = [
         require_numbers("load", load, 0.0) if load is not None else require_numbers("approach", approach),
         *(
             require_numbers(f"creepage.{name}", value, -LARGEST_CREEPAGE, LARGEST_CREEPAGE)
@@ -116,7 +116,8 @@ def forces(
         require_numbers("speed", speed, 0.0),
         index,
     ]
-    names = ("approach" if load is None else "load", *(f"creepage.{name}" for name in _PARTS), "friction", "speed")
+    load_name = "approach" if load is None else "load"
+    names = (load_name, *(f"creepage.{name}" for name in _PARTS), "friction", "speed")
     for name, values in zip(names, columns, strict=False):  # the last column has no values, but places of separations
         doubt_values(name, values)
     try:
@@ -194,7 +195,7 @@ def forces(
         status=results["status"].reshape(shape),
         gap_error=column("gap_error"),
         jacobian=None if slopes is None else Jacobian(slopes.reshape(*shape, ROWS, COLUMNS), names[0]),
-    )
+    )._with_inputs(dict(zip((load_name, *_PARTS, "friction", "speed", "separation"), columns, strict=True)))
 
 
 def _creepages(given: Any) -> tuple[ArrayLike, ArrayLike, ArrayLike]:

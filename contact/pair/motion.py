@@ -24,6 +24,7 @@ from contact.pair.contact_damping import ContactDamping
 from contact.pair.elastic_rail import ElasticRail
 from contact.pair.friction_memory import FrictionMemory
 from contact.pair.solution import PairSolution
+from contact.tables import Table, Tabular
 
 MOST_ROWS = 1_000_000
 TIME, STATION, LOAD, COEFFICIENT = "time", "station", "load.normal_force", "friction.coefficient"
@@ -41,7 +42,7 @@ NAMES = (*(name for members in _MEMBERS.values() for name in members), *_ARGUMEN
 _OF_PATCH = ("angle", "approach", "N", "Fx", "Fy", "Mz", "max_pressure", "area", "gap_error")
 
 
-class PairRun(Mapping[str, Array]):
+class PairRun(Mapping[str, Array], Tabular):
     """Results of a motion: a mapping of names to columns, one row for each row of the motion, in SI units.
 
     The columns are ``time`` or ``station`` and ``rotation`` as given; the force on the wheel ``Fx``, ``Fy``, ``Fz``, and
@@ -65,6 +66,12 @@ class PairRun(Mapping[str, Array]):
 
     def __len__(self) -> int:
         return len(self._columns)
+
+    def _table(self) -> Table:
+        first = TIME if TIME in self else STATION
+        beside = {name: self[name] for name in (STATION, "rotation") if name in self and name != first}
+        columns = {name: values for name, values in self.items() if name not in {first, *beside}}
+        return Table({first: self[first]}, columns, beside, units={"spin": "rad/s"})
 
     def __repr__(self) -> str:
         return f"PairRun({len(self.solutions)} rows: {', '.join(self)})"

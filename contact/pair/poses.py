@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -22,16 +23,18 @@ from contact.kernels.records import GIVEN, LARGEST_ANGLE, TOTAL
 from contact.pair.wheel_rail import WheelRailPair
 from contact.plausibility import doubt_values
 from contact.solution import Status
+from contact.tables import ArrayOfResults
 
 _CHUNK = 64  # poses between two reports of progress
 
 
 @dataclass(frozen=True, eq=False)
-class PoseForces:
+class PoseForces(ArrayOfResults):
     """Action of one rail on the wheelset at each pose. Arrays of the broadcast shape; names and units of `PairSolution`.
 
     `Fx`, `Fy`, `Fz` and `Mx`, `My`, `Mz` are the components of its `force` and `moment`. A pose without an answer, because the
-    profiles do not overlap or no height carries the load, has NaN and the status OUT_OF_RANGE.
+    profiles do not overlap or no height carries the load, has NaN and the status OUT_OF_RANGE. In
+    `to_dataframe` and `to_xarray` inputs name the axes along which they vary.
     """
 
     Fx: Array
@@ -185,4 +188,7 @@ def over_poses(
         with ThreadPoolExecutor(count) as pool:
             list(pool.map(work, range(count)))
     names = {name: _OTHER_NAMES.get(name, name) for name in PoseForces.__dataclass_fields__}
-    return PoseForces(**{name: np.ascontiguousarray(found[member]).reshape(shape) for name, member in names.items()})
+    made: dict[str, Any] = {name: np.ascontiguousarray(found[of]).reshape(shape) for name, of in names.items()}
+    inputs = {name.rpartition(".")[2]: values for name, values in columns.items()}
+    height = {Height.GIVEN: "z", Height.LOAD: "load", Height.PENETRATION: "penetration"}[mode]
+    return PoseForces(**made)._with_inputs({**inputs, height: limited})

@@ -16,6 +16,7 @@ from contact.geometry.records import Patch, Pose, contact_angle
 from contact.geometry.surfaces import SurfacePatch
 from contact.notebook import beside, table
 from contact.solution import PairJacobian, Solution, Status
+from contact.tables import Table, Tabular
 
 
 @dataclass(frozen=True, slots=True)
@@ -112,8 +113,8 @@ class PairDamage(NamedTuple):
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class PairSolution:
-    """Action of one rail on the wheelset, in track coordinates.
+class PairSolution(Tabular):
+    """Action of one rail on the wheelset, in track coordinates. Its tables have a row for each patch.
 
     Attributes
     ----------
@@ -154,6 +155,19 @@ class PairSolution:
     deflection: tuple[float, float] = (0.0, 0.0)
     spin: float = 0.0
     jacobian: PairJacobian | None = field(default=None, repr=False)
+
+    def _table(self) -> Table:
+        names = "N", "Fx", "Fy", "Mx", "My", "Mz", "angle", "area", "max_pressure", "approach", "used_friction"
+        columns = {name: np.array([getattr(c, name) for c in self.contacts]) for name in (*names, "gap_error", "pitch")}
+        for name in ("longitudinal", "lateral", "spin"):
+            columns[name] = np.array([getattr(c.creepage, name) for c in self.contacts])
+        columns["status"] = np.array([int(c.status) for c in self.contacts], dtype=np.int64)
+        beside = {name: np.array([c.position[k] for c in self.contacts]) for k, name in enumerate("xyz")}
+        for name in ("on_rail", "on_wheel"):
+            beside |= {
+                f"{name}_{axis}": np.array([getattr(c, name)[k] for c in self.contacts]) for k, axis in enumerate("yz")
+            }
+        return Table({"patch": np.arange(len(self.contacts))}, columns, beside)
 
     def _repr_html_(self) -> str:
         """Return HTML for a notebook: a table of the whole wheel and one of its patches."""

@@ -9,15 +9,16 @@ from numpy.typing import NDArray
 
 from contact.kernels.enumerations import Status
 from contact.solution.jacobian import Jacobian
+from contact.tables import ArrayOfResults
 
 Numbers = float | NDArray[np.float64]
 
 
 @dataclass(frozen=True, slots=True)
-class Forces:
+class Forces(ArrayOfResults):
     """Results of arrays of cases. Each member is an array of the input's broadcast shape; units and signs as in `Solution`.
 
-    `jacobian` is None unless it was asked for.
+    `jacobian` is None unless it was asked for. In `to_dataframe` and `to_xarray` inputs name the axes along which they vary.
 
     Examples
     --------
@@ -40,6 +41,9 @@ class Forces:
     status: int | NDArray[np.int64]
     gap_error: Numbers
     jacobian: Jacobian | None = None
+
+    __getstate__ = ArrayOfResults.__getstate__  # with the names of the axes
+    __setstate__ = ArrayOfResults.__setstate__
 
 
 @dataclass(frozen=True, slots=True)

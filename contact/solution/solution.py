@@ -5,7 +5,7 @@ from __future__ import annotations
 import copy
 import math
 import warnings
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, fields
 from functools import cached_property
 from typing import Any, NamedTuple
 
@@ -26,6 +26,7 @@ from contact.notebook import beside, table
 from contact.registry import methods
 from contact.solution.jacobian import Jacobian
 from contact.solution.pressure import pressure_at, sketch
+from contact.tables import Table, Tabular
 
 Records = NDArray[np.void]
 
@@ -87,7 +88,7 @@ class Prepared(NamedTuple):
 
 @only_with_fields("qx", "qy", "sx", "sy", "stick")
 @dataclass(frozen=True, eq=False)
-class Solution:
+class Solution(Tabular):
     """Solved contact of one wheel-rail pair in the frame of its separation.
 
     Forces act on the wheel. x points in the rolling direction, y is lateral, z points along the common normal. Fields have
@@ -219,6 +220,20 @@ class Solution:
     def __setstate__(self, state: dict[str, Any]) -> None:
         self.__dict__.update(state)
         _own_all(self.__dict__)
+
+    def __dir__(self) -> list[str]:
+        """Return all names, those of arrays too that are made when they are first read."""
+        return sorted({*super().__dir__(), *(each.name for each in fields(self))} - {"_left"})
+
+    def _table(self) -> Table:
+        names = ("p", "qx", "qy", "sx", "sy", "stick", "dA") if self.has_fields else ("p", "dA")
+        n_strips, n_elements = self.p.shape
+        return Table(
+            {"strip": np.arange(n_strips), "element": np.arange(n_elements)},
+            {name: getattr(self, name) for name in names},
+            {"x": self.x, "y": self.y, "patch": self.strips.patch},
+            attributes={"normal": self.normal, "tangential": self.tangential, "status": self.status.name},
+        )
 
     def __repr__(self) -> str:
         return (
