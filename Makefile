@@ -23,7 +23,7 @@ $(READY): pyproject.toml | $(BIN)/python
 
 $(READY_FOR_DEMO): pyproject.toml | $(BIN)/python
 	@echo "Setting up $(VENV) for the demo (a minute the first time) ..."
-	$(BIN)/python -m pip install --quiet --editable '.[plot,fmu,build]'
+	$(BIN)/python -m pip install --quiet --editable '.[plot,native]'
 	@touch $@
 
 demo: $(READY_FOR_DEMO) ## build the FMUs, run the coupled wheelset, write pictures and a CSV to out/

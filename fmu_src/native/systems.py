@@ -28,6 +28,8 @@ INSTALLED = library.INSTALLED.parents[1]
 INCLUDE = library.get_include()
 C_SOURCES = [INCLUDE.parent / "c" / "wheelrail.c", _HERE / "c_library" / "processor.c"]
 WRAPPER = sorted((_HERE / "c").iterdir())
+#: The C source of the library that FMUs for hosts with Python have in front of pythonfmu's.
+ENTRY = sorted((_HERE.parent / "python" / "c").iterdir())
 #: System, by its name in FMI 2.0 or, for 64-bit ARM, in 3.0 → file name of the library.
 SYSTEMS = {
     "linux64": "libwheelrail.so",
@@ -82,7 +84,7 @@ def folder(systems: Sequence[str] = USUAL, say: Callable[[str], None] = print) -
             )
         return INSTALLED
     compiled = kernels(say)
-    made = compiled / f"linked-{digest(*WRAPPER, *C_SOURCES, *INCLUDE.iterdir(), *_HERE.glob('l*.py'))}"
+    made = compiled / f"linked-{digest(*WRAPPER, *C_SOURCES, *INCLUDE.iterdir(), *_HERE.glob('l*.py'), *ENTRY)}"
 
     def missing() -> list[str]:
         return [system for system in systems if not (made / system / SYSTEMS[system]).is_file()]
@@ -120,6 +122,7 @@ def digest(*paths: Path) -> str:
 
 def _link(compiled: Path, made: Path, systems: Sequence[str], say: Callable[[str], None]) -> None:
     try:
+        from ..python import entry
         from .headers import HEADERS
         from .licences import licences
         from .linking import link
@@ -134,6 +137,7 @@ def _link(compiled: Path, made: Path, systems: Sequence[str], say: Callable[[str
     for system in systems:
         say(f"linking the library for {system}")
         link(system, SYSTEMS[system], compiled, made)
+    entry.build([one for one in systems if one in entry.FILES], made)
     (made / "licenses").mkdir(exist_ok=True)
     for name, text in licences(HEADERS):
         (made / "licenses" / name).write_text(text, encoding="utf-8")

@@ -20,7 +20,7 @@ def release_once(resources: str) -> None:
     """Let Python release, when it ends, what pythonfmu's library keeps. `resources` is the folder of the FMU's resources."""
     if not hasattr(os, "RTLD_NOLOAD"):  # Windows, where the library has no such destructor
         return
-    for path in Path(resources).parent.glob("binaries/*/*.so"):
+    for path in Path(resources).resolve().parent.glob("binaries/*/pythonfmu-export.so"):
         try:
             library = ctypes.CDLL(str(path), os.RTLD_NOLOAD)
         except OSError:  # not the library that the host has loaded

@@ -1,4 +1,4 @@
-"""Build FMU files for hosts with Python: description, pythonfmu with its library, and a script of a few lines.
+"""Build FMU files for hosts with Python: description, pythonfmu with its library, ours before it (`entry`), and a short script.
 
 The solver is not included; the script imports the installed package. If two FMUs in one process include a package of the same
 name, both run the code of the first, and numba's cache never hits for code in an unzipped FMU (both measured with pythonfmu
@@ -21,6 +21,7 @@ from ..description import model_description
 from ..documentation import markdown, page
 from ..icon import png
 from ..place import licence
+from . import entry as entries
 from .slave import INTERFACES
 
 _SCRIPT = '''\
@@ -37,29 +38,14 @@ except ImportError as error:
     reason = f"the FMU {name} needs the package wheelrail-contact {version} in the host's Python: {{error}}"
 
     class {slave}(Fmi2Slave):
-        """Stands for the model that is missing, and does no step. An exception would end a host that is not in Python."""
+        """Stands for the model that is missing. An instance that logs an error while it is made is not given to the host."""
 
         def __init__(self, **kwargs):
             super().__init__(**kwargs)
             self.log(reason, Fmi2Status.error)
-            if sys.stderr is not None:  # without loggingOn nothing reaches the host's logger
-                print(reason, file=sys.stderr, flush=True)
 
         def do_step(self, current_time, step_size):
-            self.log(reason, Fmi2Status.discard)
             return False
-
-        def _zeros(self, references):
-            return [0] * len(references)
-
-        def _ignore(self, references, values):
-            pass
-
-        get_real = get_integer = get_boolean = _zeros
-        set_real = set_integer = set_boolean = set_string = _ignore
-
-        def get_string(self, references):
-            return [""] * len(references)
 
 
 class {name}({slave}):
@@ -93,8 +79,10 @@ def _files(model: Model) -> Iterator[tuple[str, bytes]]:
     package = Path(pythonfmu.__file__).parent
     for source in package.glob("*.py"):
         yield f"resources/pythonfmu/{source.name}", source.read_bytes()
-    for library in (package / "resources" / "binaries").glob("*/*"):
-        yield f"binaries/{library.parent.name}/{name}{library.suffix}", library.read_bytes()
+    for system, entry in entries.libraries().items():
+        (library,) = (package / "resources" / "binaries" / system).iterdir()
+        yield f"binaries/{system}/{name}{library.suffix}", entry
+        yield f"binaries/{system}/pythonfmu-export{library.suffix}", library.read_bytes()
     yield f"documentation/{name}.md", markdown(model.table).encode()
     yield "documentation/index.html", page(model.table).encode()
     yield "model.png", png(name)

@@ -1,10 +1,7 @@
 """pythonfmu slave that is driven by a variable table. A model adds the function from inputs to outputs.
 
 pythonfmu 0.7.0 turns an exception in a callback into fmi2Fatal, and the fifth one crashes the host (measured). Therefore no
-exception leaves a callback: a doStep that fails returns Discard with a message, and any other refused call is logged.
-
-Without `loggingOn` pythonfmu gives the host's logger nothing, not even the exception with which an instantiation, an
-initialisation, a set function or a step ends (measured). A refusal is therefore also written to stderr.
+exception leaves a callback. What is refused is logged, and `c/entry.c` returns the status of the worst message of a call.
 """
 
 from __future__ import annotations
@@ -16,7 +13,6 @@ from collections.abc import Callable
 from enum import StrEnum
 from functools import wraps
 from operator import itemgetter
-from types import MappingProxyType
 from typing import Any
 
 import numpy as np
@@ -24,7 +20,7 @@ from pythonfmu.enums import Fmi2Status
 from pythonfmu.fmi2slave import Fmi2Slave
 
 from contact import __version__
-from contact.errors import ContactError, require_number
+from contact.errors import ContactError
 from ..description import LOG_CATEGORIES, model_description
 from ..variables import Causality, Kind, Table
 from .ending import release_once
@@ -68,14 +64,12 @@ class Phase(StrEnum):
     LOST = "after a state that is not one of this FMU"
 
 
-def _write_to_stderr(text: str) -> None:
-    if sys.stderr is not None:  # a host without a console has none
-        sys.stderr.write(text + "\n")
-        sys.stderr.flush()
+class _NotAllowed(Exception):
+    """A call that the host must not make now. It has changed nothing."""
 
 
 def guarded(method: Callable[..., Any]) -> Callable[..., Any]:
-    """Wrap a callback so that it logs an exception and returns False, which means Discard in `do_step`."""
+    """Wrap a callback so that it logs an exception and returns False: Discard for a wrong value, Error for anything else."""
 
     @wraps(method)
     def callback(self: TableSlave, *args: Any) -> Any:
@@ -83,11 +77,22 @@ def guarded(method: Callable[..., Any]) -> Callable[..., Any]:
             return method(self, *args)
         except ContactError as error:
             self.log(str(error), Fmi2Status.discard)
+        except _NotAllowed as error:
+            self.log(str(error), Fmi2Status.error)
         except Exception as error:  # noqa: BLE001 - no exception may reach the host
             self.log(f"{method.__name__}: {type(error).__name__}: {error}", Fmi2Status.error)
         return False
 
     return callback
+
+
+def _rounding(time: float, h: float) -> float:
+    """Return by how much a host's time may differ, as in `native/c/simulate.c`.
+
+    Masters add up steps, with an error of less than a thousandth of a step. Others keep the time in single precision; half a
+    step off is wrong in any case.
+    """
+    return 1e-3 * h + 16.0 * sys.float_info.epsilon * abs(time) + min(2.0**-23 * abs(time), 0.499 * h)
 
 
 class TableSlave(Fmi2Slave):
@@ -112,8 +117,6 @@ class TableSlave(Fmi2Slave):
 
     #: Rows that `on_demand` computes only when a host reads them.
     lazy: tuple[str, ...] = ()
-    #: Rows that show the host at initialisation that a value it set was refused.
-    refused: Rows = MappingProxyType({})
 
     def __init__(self, table: Table, guid: str, **kwargs: Any) -> None:
         super().__init__(**kwargs)
@@ -126,11 +129,9 @@ class TableSlave(Fmi2Slave):
                 f"this FMU {table.name} was built with another version of wheelrail-contact than the installed "
                 f"{__version__}: install that version, or build the FMU anew"
             )
-            _write_to_stderr(reason)
             raise RuntimeError(reason)
         self.table = table
         self.guid = guid
-        self._said = ""
         self.phase = Phase.INSTANTIATED
         self.time, self.stop_time = 0.0, math.inf
         self.values = SlaveValues(table, [s.first for s in table.scalars])
@@ -165,13 +166,6 @@ class TableSlave(Fmi2Slave):
         self._choices = [(row.name, row.twin_of) for row in table.twins if row.is_given]
         self._mirrors = [(row.name, row.twin_of) for row in table.twins if not row.is_given]
 
-    def log(self, msg: str, status: Fmi2Status = Fmi2Status.ok, *rest: Any, **options: Any) -> None:
-        """Log a message. A refusal is also written to stderr, unless it is the one written last."""
-        super().log(msg, status, *rest, **options)
-        if status >= Fmi2Status.discard and msg != self._said:
-            _write_to_stderr(f"{self.table.name}: {msg}")
-            self._said = msg
-
     # ---------------------------------------------------------------- implemented by a model
 
     def outputs(self, values: SlaveValues, step_size: float) -> Rows:
@@ -200,6 +194,8 @@ class TableSlave(Fmi2Slave):
     @guarded
     def setup_experiment(self, start_time: float, stop_time: float | None, tolerance: float | None) -> None:
         """Remember start and stop time."""
+        if not math.isfinite(start_time) or (stop_time is not None and not stop_time >= start_time):
+            raise _NotAllowed(f"startTime = {start_time:g}, stopTime = {stop_time}: the stop is before the start")
         self.time = start_time
         self.stop_time = math.inf if stop_time is None else stop_time
 
@@ -210,13 +206,9 @@ class TableSlave(Fmi2Slave):
 
     @guarded
     def exit_initialization_mode(self) -> None:
-        """Fix the parameters and compute the outputs at the start."""
+        """Fix the parameters and compute the outputs at the start. After a failure the host may correct a value and repeat."""
+        self._update(0.0)
         self.phase = Phase.STEPPING
-        try:
-            self._update(0.0)
-        except ContactError:
-            self.values = self.values.updated(self._mirrored(self.refused))  # pythonfmu cannot return an error here
-            raise
 
     @guarded
     def terminate(self) -> None:
@@ -227,12 +219,19 @@ class TableSlave(Fmi2Slave):
     def do_step(self, current_time: float, step_size: float) -> bool:
         """Advance the outputs by one step. Return False (Discard) if this fails; the outputs are then unchanged."""
         if self.phase is not Phase.STEPPING:
-            raise ContactError(f"doStep is not allowed {self.phase}")
-        require_number("communicationStepSize", step_size, 0.0, open_minimum=True)
-        # tolerance for masters that add up steps: their rounding error is less than a thousandth of a step
-        near = 1e-3 * step_size + 16.0 * sys.float_info.epsilon * abs(self.time)
-        require_number("currentCommunicationPoint", current_time, self.time - near, self.time + near)
-        require_number("end of the step", current_time + step_size, maximum=self.stop_time + 1e-3 * step_size)
+            raise _NotAllowed(f"doStep is not allowed {self.phase}; the call is ignored")
+        time, h = float(current_time), float(step_size)
+        if not math.isfinite(time):
+            raise _NotAllowed(f"currentCommunicationPoint = {time:g} is not finite")
+        if not (0.0 < h < math.inf):
+            raise _NotAllowed(f"communicationStepSize = {h:g} is outside the allowed range ]0, inf[")
+        near = _rounding(time, h)
+        if abs(time - self.time) > near:
+            raise _NotAllowed(
+                f"currentCommunicationPoint = {time:.17g} does not continue the last step, which ended at {self.time:.17g}"
+            )
+        if time + h > self.stop_time + near:
+            raise _NotAllowed(f"end of the step = {time + h:.17g} is after the stopTime = {self.stop_time:.17g}")
         self._update(step_size)
         self.time = current_time + step_size
         return True
@@ -363,7 +362,7 @@ class TableSlave(Fmi2Slave):
     @guarded
     def _set_fmu_state(self, state: dict[str, Any]) -> None:
         if not isinstance(state, dict) or state.get("guid") != self.guid:
-            self.phase = Phase.LOST  # pythonfmu returns OK here, so the next step must not be done
+            self.phase = Phase.LOST
             raise ValueError(f"this is not a state of the FMU {self.table.name}; set another one")
         self.phase = Phase(state["phase"])
         self.time, self.stop_time = state["time"], state["stop_time"]

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from types import MappingProxyType
 from typing import Any
 
 import numpy as np
@@ -26,7 +25,6 @@ class WheelRailContactSlave(TableSlave):
     """One wheel-rail contact in the plane of its separation. Forces act on the wheel."""
 
     lazy = ("creep_stiffness",)
-    refused: Rows = MappingProxyType({"status": int(Status.OUT_OF_RANGE)})
 
     def __init__(self, points: int, guid: str, elliptic: bool = False, **kwargs: Any) -> None:
         super().__init__(table(points, elliptic), guid, **kwargs)

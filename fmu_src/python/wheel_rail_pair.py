@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from pathlib import Path
-from types import MappingProxyType
 from typing import Any
 
 import numpy as np
@@ -31,8 +30,6 @@ _NO_CONTACT = [0.0] * len(PATCH)
 
 class WheelRailPairSlave(TableSlave):
     """One wheel on one rail. Each patch starts from its last solution if the normal method can use a warm start."""
-
-    refused: Rows = MappingProxyType({"status": int(Status.OUT_OF_RANGE)})
 
     def __init__(self, inclination: float, guid: str, accumulation: bool = False, **kwargs: Any) -> None:
         super().__init__(table(inclination, accumulation), guid, **kwargs)

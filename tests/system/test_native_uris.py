@@ -1,28 +1,11 @@
 """The location of the resources is a URI, which hosts spell in many ways. The profiles of a pair are found by all of them."""
 
-import re
 from copy import copy
 
 import pytest
+from spellings import OF_WINDOWS, SPELLINGS
 
 PLATFORMS = ["linux64", "win64"]
-SPELLINGS = {
-    "capital letters": lambda uri: uri.replace("file:", "FILE:"),
-    "mixed letters": lambda uri: uri.replace("file:", "File:"),
-    "one slash": lambda uri: uri.replace("file:///", "file:/"),
-    "localhost": lambda uri: uri.replace("file:///", "file://localhost/"),
-    "a query": lambda uri: uri + "?version=2",
-    "a fragment": lambda uri: uri + "#top",
-    "both": lambda uri: uri + "?version=2#top?",
-    "a last slash": lambda uri: uri + "/",
-    "small hexadecimal digits": lambda uri: re.sub("%[0-9A-F]{2}", lambda found: found[0].lower(), uri),
-    "letters that need no code": lambda uri: uri.replace("resources", "%72esource%73"),
-}
-OF_WINDOWS = {
-    "a colon as code": lambda uri: uri.replace("Z:", "Z%3A"),
-    "a colon as code in small letters": lambda uri: uri.replace("Z:", "z%3a"),
-    "a small drive": lambda uri: uri.replace("Z:", "z:"),
-}
 
 
 def instantiated(host, uri: str) -> None:

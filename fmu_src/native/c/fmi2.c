@@ -4,6 +4,7 @@
 
 #include "fmi2Functions.h"
 #include "instance.h"
+#include "location.h"
 
 #ifdef FMI2_FUNCTION_PREFIX /* for an FMU that is linked into a program; the header above adds no prefix */
 #define JOIN(a, b) a##b

@@ -230,8 +230,7 @@ Status exit_initialization(Instance *instance, const char *function);
 Status terminate(Instance *instance, const char *function);
 Status reset(Instance *instance, const char *function);
 
-/* resources.c; a folder is a path, a location is a URI; the caller frees the path */
-char *path_of(const char *location);
+/* resources.c; a folder is a path */
 FILE *open_resource(const Instance *instance, const char *folder, const char *name);
 bool load_resources(Instance *instance, const char *folder);
 

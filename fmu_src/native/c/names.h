@@ -16,7 +16,6 @@
 #define exit_initialization OWN(exit_initialization)
 #define terminate OWN(terminate)
 #define reset OWN(reset)
-#define path_of OWN(path_of)
 #define load_resources OWN(load_resources)
 #define open_resource OWN(open_resource)
 #define load_table OWN(load_table)

@@ -6,6 +6,13 @@
 
 /* ---------------------------------------------------------------- co-simulation */
 
+/* Return by how much a host's time may differ. Masters add up steps, with an error of less than a thousandth of a step. Others
+ * keep the time in single precision; half a step off is wrong in any case. */
+static double rounding(double time, double h)
+{
+    return 1e-3 * h + 16.0 * DBL_EPSILON * fabs(time) + fmin(FLT_EPSILON * fabs(time), 0.499 * h);
+}
+
 Status do_step(Instance *instance, const char *function, double time, double h)
 {
     Status status;
@@ -13,12 +20,11 @@ Status do_step(Instance *instance, const char *function, double time, double h)
     if (!isfinite(time)) return report(instance, LOG_ERROR, "currentCommunicationPoint = %g is not finite", time);
     if (!isfinite(h) || h <= 0.0)
         return report(instance, LOG_ERROR, "communicationStepSize = %g is outside the allowed range ]0, inf[", h);
-    /* tolerance for masters that add up steps: their rounding error is less than a thousandth of a step */
-    if (fabs(time - instance->is.time) > 1e-3 * h + 16.0 * DBL_EPSILON * fabs(time))
+    if (fabs(time - instance->is.time) > rounding(time, h))
         return report(instance, LOG_ERROR, "currentCommunicationPoint = %.17g does not continue the last step, which ended at %.17g",
                       time, instance->is.time);
-    if (time + h > instance->is.stop_time + 1e-3 * h)
-        return report(instance, LOG_ERROR, "end of the step = %g is after the stopTime = %g", time + h,
+    if (time + h > instance->is.stop_time + rounding(time, h))
+        return report(instance, LOG_ERROR, "end of the step = %.17g is after the stopTime = %.17g", time + h,
                       instance->is.stop_time);
     status = update(instance, h, true);
     if (status <= WARNING) instance->is.time = time + h;
