@@ -14,7 +14,7 @@ from contact_models.wheelset import ports
 from contact_models.wheelset.parameters import WheelsetParameters
 
 from contact.errors import ContactError
-from . import profiles, ssp
+from . import profiles, ssp, starts
 from .catalogue import Model, models, surfaces, vehicles
 from .documentation import markdown
 from .native import packaging as native
@@ -72,6 +72,11 @@ def main(words: Sequence[str] | None = None, name: str | None = None) -> None:
         systems.folder((*systems.USUAL, *(systems.ARM if arguments.arm else ())))
     try:
         given = profiles.chosen(arguments)
+        if arguments.vehicle:
+            of_vehicle = scenario.read(arguments.vehicle)
+            given = {**starts.profiles(of_vehicle), **given}
+            for what in starts.left_out(of_vehicle):
+                print(f"{arguments.vehicle.name}: the FMUs of the vehicle do not take {what}")
         chosen = models(arguments.points, given, arguments.accumulation)
         more: tuple[Model, ...] = (surfaces(given),) if arguments.surfaces else ()
         more += vehicles(arguments.vehicle, given) if arguments.vehicle else ()

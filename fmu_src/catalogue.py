@@ -14,12 +14,13 @@ from typing import Any
 from contact_models.life import scenario
 from contact_models.wheelset.ports import POINTS
 
+from contact.errors import ContactError
 from contact.geometry import profile
 from contact.geometry.profile import Kind, Profile
 from contact.geometry.surfaces import SurfacePair
-from . import profiles
+from . import profiles, starts
 from . import surfaces as slices
-from .tables.vehicle import TRACK
+from .tables.vehicle import START, TRACK
 from .track import pack
 from .variables import Table
 
@@ -91,12 +92,12 @@ def surfaces(given: Mapping[Kind, Profile] | None = None) -> Model:
 def vehicles(path: Path, given: Mapping[Kind, Profile] | None = None) -> tuple[Model, ...]:
     """Return the native FMUs of the vehicle of a scenario's file, on its track: with contacts, and without them.
 
-    Profiles are as in `models`.
+    Profiles are as in `models`. What the scenario gives of the variables are their starts.
 
     Raises
     ------
     ContactError
-        As `models.life.scenario.read`, and for flats, polygons and slices.
+        As `models.life.scenario.read`, and for what the FMUs have not: flats, polygons, slices, torques, different rails.
     """
     declared = scenario.read(path)
     declared.require_profiles(path.name, "the FMUs of a vehicle take")
@@ -104,7 +105,13 @@ def vehicles(path: Path, given: Mapping[Kind, Profile] | None = None) -> tuple[M
     beside = path.parent / declared.declared.vehicle
     vehicle = str(beside) if beside.is_file() else declared.declared.vehicle
     track = {TRACK: pack(declared)}
-    return (
-        Model("vehicle", {"vehicle": vehicle, **pair.options}, {**pair.resources, **track}, declared="whole_vehicle"),
-        Model("open_vehicle", {"vehicle": vehicle}, track, declared="vehicle_alone"),
-    )
+    try:
+        its = {"vehicle": vehicle, **pair.options, "starts": starts.vehicle(declared, START)}
+        alone = {"vehicle": vehicle, "starts": starts.open_vehicle(declared, START)}
+        whole = Model("vehicle", its, {**pair.resources, **track}, declared="whole_vehicle")
+        found = whole, Model("open_vehicle", alone, track, declared="vehicle_alone")
+        for model in found:
+            _ = model.table  # checks the starts
+    except ContactError as error:
+        raise ContactError(f"{path.name}.{error}") from None
+    return found

@@ -22,13 +22,10 @@ from xml.etree.ElementTree import Element, SubElement, fromstring, indent, tostr
 from zipfile import ZipFile
 
 from contact_models.life.scenario import Scenario
-from contact_models.vehicle.course import lay
-from contact_models.vehicle.kernels.layout import Axis
-from contact_models.vehicle.simulation import ContactOptions, Simulation
 from contact_models.wheelset.parameters import WheelsetParameters
 from contact_models.wheelset.ports import ENERGY, IRREGULARITY, MOTION, POINTS, PROBLEM, REACTION, REPORT, SIDES
 
-from . import archive
+from . import archive, starts
 from .description import number
 from .tables import open_vehicle, wheel_rail_contact, wheel_rail_pair, wheelset
 from .tables.solver import NORMAL_METHOD, TANGENTIAL_METHOD
@@ -103,25 +100,12 @@ def vehicle_on_rails(given: Scenario, start: float) -> System:
     The FMUs have the scenario's profiles and track; its speed at the start and its friction are parameters.
     """
     declared = given.vehicle
-    d, methods = given.declared, given.declared.methods
-    track = lay(d.track, d.length, given.speed, (d.seed, *given.draw), d.recording.settling)
-    options = ContactOptions(
-        normal=methods.normal, tangential=methods.tangential, n_strips=methods.strips, n_elements=methods.elements
-    )
-    rails = given.rails * len(declared.wheelsets)
-    simulation = Simulation(declared, track, given.wheels, rails, given.friction, options, start=start)
-    origin = simulation.benches.motions[0]
+    methods = given.declared.methods
     whole = open_vehicle.table(str(given.declared.vehicle))
-    heights = simulation.state.q[simulation.model.wheelsets, Axis.Z]
-    friction = float(simulation.model.surface[0])
-    vehicle = {
-        "initial.distance": start,
-        **{f"initial.z[{k}]": float(z) for k, z in enumerate(heights, 1)},
-        "rail.origin_y": float(origin["origin_y"]),
-        "rail.origin_z": float(origin["origin_z"]),
-        "speed": given.speed(start),
-        "friction.coefficient": friction,
-    }
+    vehicle: dict[str, float] = {}
+    for name, value in starts.open_vehicle(given, start):
+        for k, one in enumerate(value if isinstance(value, tuple) else (value,), 1):
+            vehicle[f"{name}[{k}]" if isinstance(value, tuple) else name] = float(one)
     of_wheel = {
         "load.kind_integer": LOAD_KIND.number("Position"),
         "method.normal_integer": NORMAL_METHOD.number(methods.normal),

@@ -15,6 +15,7 @@ from contact.kernels.records import LARGEST_ANGLE
 from .. import surfaces, track
 from ..profiles import MAGIC, ROWS
 from ..tables import open_vehicle, vehicle, wheel_rail_contact, wheel_rail_pair, wheel_rail_surfaces, wheelset
+from ..tables.vehicle import Starts
 from .component import Component, Resource, numbers
 
 WARNINGS: dict[int, str] = {s: f"status {s.name}: {s.message}" for s in (Status.OUT_OF_RANGE, Status.NOT_CONVERGED)}
@@ -148,14 +149,15 @@ def axle() -> Component:
     return Component(kind="wheelset", table=wheelset.table(), failures={**motion.MESSAGES, OUT_OF_GAUGE: too_deep})
 
 
-def whole_vehicle(vehicle: str, inclination: float) -> Component:
+def whole_vehicle(vehicle: str, inclination: float, starts: Starts = ()) -> Component:
     """Return the FMU of a vehicle. `inclination` is the default of `rail.inclination` (tangent)."""
     from ..tables.vehicle import table
 
+    its = table(vehicle, inclination, starts)
     return Component(
         kind="vehicle",
-        table=table(vehicle, inclination),
-        own=_of_vehicle(vehicle, table(vehicle, inclination)),
+        table=its,
+        own=_of_vehicle(vehicle, its),
         resources=(*_PROFILES, _TRACK),
         warnings=WARNINGS,
         failures={**_OF_PROFILES, Failure.ENDED: _ENDED, Failure.LOST: f"{_LOST}: resolution.step is too long"},
@@ -163,9 +165,9 @@ def whole_vehicle(vehicle: str, inclination: float) -> Component:
     )
 
 
-def vehicle_alone(vehicle: str) -> Component:
+def vehicle_alone(vehicle: str, starts: Starts = ()) -> Component:
     """Return the FMU of a vehicle that asks for the forces at its wheels."""
-    table = open_vehicle.table(vehicle)
+    table = open_vehicle.table(vehicle, starts)
     too_long = f"{_LOST}: the step is too long, or forces do not belong to the motion"
     return Component(
         kind="open_vehicle",

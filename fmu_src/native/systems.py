@@ -56,6 +56,11 @@ _WITHOUT = {
         "icon",
         "place",
         "ssp",
+        "starts",
+        "doubts",
+        "validation",
+        "validation_cases",
+        "check",
     ),
     *("terminals", "c_header", "headers", "libm", "licences", "linking", "packaging", "systems", "table"),
 }

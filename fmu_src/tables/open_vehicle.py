@@ -12,6 +12,7 @@ from contact_models.vehicle.declared import VehicleDeclaration, read
 
 from ..variables import Table, Variable, output, parameter, signal
 from . import vehicle
+from .vehicle import Starts, started
 from .wheel_rail_pair import MOTION
 
 #: What a pair answers.
@@ -23,15 +24,15 @@ QUESTION = (*(name for name, *_ in MOTION), "friction.coefficient")
 
 
 @cache
-def table(vehicle: str) -> Table:
-    """Return the table for a vehicle as `models.vehicle.declared.read` finds it."""
+def table(vehicle: str, starts: Starts = ()) -> Table:
+    """Return the table for a vehicle as `models.vehicle.declared.read` finds it, with the `starts` of a scenario."""
     declared = read(vehicle)
     return Table(
         "OpenVehicle",
         f"{declared.name} without contacts, on the track in resources. For each wheel, wheelset by wheelset, right "
         "before left, it tells the motion that WheelRailPair takes, and takes its forces. Step the pairs before the "
         "vehicle: then nothing is late.",
-        [*_parameters(declared), *_inputs(declared), *_outputs(declared)],
+        started([*_parameters(declared), *_inputs(declared), *_outputs(declared)], starts),
         step_size=2e-4,
     )
 

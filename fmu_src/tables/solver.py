@@ -48,6 +48,13 @@ SURFACE = Enumeration(
         ),
     ),
 )
+#: Names that rows `friction.…` and `thermal.…` share with members of `Friction` and `Thermal`.
+FRICTION = (
+    *("kinetic", "half_speed", "slope", "slope_far", "slope_rate"),
+    *("gauge_factor", "border", "border_width", "k_A", "k_S", "hot_factor", "reference_temperature"),
+    *("temperature_range", "background_temperature"),
+)
+THERMAL = ("conductivity", "density", "heat_capacity", "heat_share")
 _THERMAL = Thermal()
 #: Least load [N]. Suspensions and round-off give small negative loads at lift-off; more is a wrong sign.
 LEAST_LOAD = -1e3

@@ -16,6 +16,8 @@ from ..variables import Attributes, Table, Variable, output, parameter, signal
 from . import wheel_rail_pair
 from .solver import DAMAGE_OUTPUTS
 
+#: Name of a row → its start, a tuple for an array (`fmu_src.starts`).
+Starts = tuple[tuple[str, float | str | tuple[float, ...]], ...]
 #: File of the track in resources/ (`fmu_src.track`), after those of the profiles.
 TRACK = "track.rows"
 #: Parameters of the pair that the vehicle itself gives.
@@ -54,18 +56,40 @@ TOTALS = {
 
 
 @cache
-def table(vehicle: str, inclination: float = 1.0 / 40.0) -> Table:
-    """Return the table for a vehicle as `models.vehicle.declared.read` finds it. `inclination` is as in `wheel_rail_pair`."""
+def table(vehicle: str, inclination: float = 1.0 / 40.0, starts: Starts = ()) -> Table:
+    """Return the table for a vehicle as `models.vehicle.declared.read` finds it, with the `starts` of a scenario.
+
+    `inclination` is as in `wheel_rail_pair`.
+    """
     declared = read(vehicle)
     return Table(
         "Vehicle",
         f"{declared.name} on elastic contacts, on the track and with the profiles in resources. The speed is an input. Outputs "
         "are forces, motion and damage of every wheel: wheelset by wheelset, right before left. Bodies: "
         f"{', '.join(names(declared))}. Track frame: x forward, y to the right, z down.",
-        [*_parameters(declared, inclination), *inputs(), *_outputs(declared, inclination)],
+        started([*_parameters(declared, inclination), *inputs(), *_outputs(declared, inclination)], starts),
         step_size=1e-3,
         hidden=frozenset(_HIDDEN_PAIR),
     )
+
+
+def started(rows: Iterable[Variable], starts: Starts) -> list[Variable]:
+    """Return the rows with other starts.
+
+    Raises
+    ------
+    ContactError
+        If a start is outside the range of its row.
+    """
+    given = dict(starts)
+    made = [replace(row, start=given.pop(row.name, row.start)) for row in rows]
+    if given:
+        raise ValueError(f"there is no row {', '.join(given)}")
+    for row in made:
+        if row.name in dict(starts):
+            for scalar in row.scalars():
+                scalar.check(scalar.first)
+    return made
 
 
 def names(declared: VehicleDeclaration) -> list[str]:

@@ -243,6 +243,8 @@ static bool made(Instance *instance, fmi2String name, fmi2Type type, fmi2String 
     if (!location) return false;
     instance->slave = instance->Instantiate(name, type, guid ? guid : "", location, &instance->callbacks, visible, fmi2True);
     free(location);
+    /* reads nothing, but pythonfmu passes on only then what was logged while the instance was made */
+    if (instance->slave) (void)instance->GetReal(instance->slave, NULL, 0, NULL);
     return instance->slave != NULL && instance->worst <= fmi2Warning;
 }
 
