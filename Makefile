@@ -31,7 +31,7 @@ demo: $(READY_FOR_DEMO) ## build the FMUs, run the coupled wheelset, write pictu
 	$(BIN)/contact demo --out out
 
 fmu: $(READY)    ## build the FMUs into dist/native and dist/python (three and a half minutes of processor time the first time, then seconds)
-	$(BIN)/python build_fmu.py
+	$(BIN)/python build_fmu.py --packaging all
 	$(BIN)/python -m fmu_src.lint dist/python/*.fmu dist/native/*.fmu dist/native/fmi3/*.fmu
 
 test: $(READY)   ## run the tests

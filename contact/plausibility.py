@@ -43,6 +43,10 @@ USUAL = {
     "pose.y": Usual(0.015, "a flange touches at about 0.007 m; the unit is m"),
     "pose.roll": _TURNED,
     "pose.yaw": _TURNED,
+    # of a wheel that is driven or braked
+    "slip": Usual(
+        0.45, "a rolling wheel has less than 0.02; spin is negative when rolling forward, about -forward/radius"
+    ),
     "wheel load": Usual(5e6, _LOAD, 1e3),
 }
 

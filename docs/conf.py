@@ -81,7 +81,7 @@ def _append_generated(app: Sphinx, page: str, source: list[str]) -> None:
     if page in ("use/scenarios", "use/command_line"):
         source[0] += getattr(generated, page.removeprefix("use/"))()
     if page == "use/fmu/fmu":
-        command = [sys.executable, ROOT / "build_fmu.py", "--surfaces", "--describe"]
+        command = [sys.executable, ROOT / "build_fmu.py", "--packaging", "all", "--surfaces", "--describe"]
         source[0] += subprocess.run(command, check=True, capture_output=True, text=True).stdout
 
 

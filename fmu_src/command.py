@@ -31,9 +31,26 @@ PROFILE = "a name of `contact profiles`, or a file"
 def fmu(
     *,
     packaging: Annotated[
-        Packaging,
-        typer.Option(help="python: for hosts with Python; native: for any host. Each has a folder of its name."),
-    ] = Packaging.all,
+        Packaging | None,
+        typer.Option(
+            help="python: for hosts with Python; native (the default): for any host. Each has a folder of its name. Given "
+            "without --model or --fmi it asks for every FMU of that packaging."
+        ),
+    ] = None,
+    model: Annotated[
+        list[str] | None,
+        typer.Option(
+            help="FMU to build, or all; may be repeated. Default: Vehicle with --vehicle, WheelRailSurfaces with "
+            "--surfaces, else WheelRailPair."
+        ),
+    ] = None,
+    fmi: Annotated[str | None, typer.Option(help="Version of FMI: 2 (default), 3 (native only) or all.")] = None,
+    platform: Annotated[
+        list[str] | None,
+        typer.Option(
+            help="System of a library in the FMUs: linux64, win64, darwin64 (default: all three); may be repeated."
+        ),
+    ] = None,
     out: Annotated[Path, typer.Option(help="Folder for the FMUs.")] = Path("dist"),
     points: Annotated[
         int | None,
@@ -60,9 +77,11 @@ def fmu(
     ] = False,
     as_json: opt.Json = False,
 ) -> None:
-    """Build the FMUs: WheelRailContact, EllipticContact, WheelRailPair, Wheelset and, native, WheelRailSurfaces.
+    """Build FMUs: by default WheelRailPair, native, FMI 2.0.
 
-    Example:  contact fmu --packaging python --out dist
+    The others are WheelRailContact, EllipticContact, Wheelset and, native, WheelRailSurfaces, Vehicle and OpenVehicle.
+
+    Example:  contact fmu --wheel S1002 --rail 60E1 --out dist
     """
     options = {
         "packaging": packaging,
@@ -71,6 +90,7 @@ def fmu(
         "vehicle": vehicle,
         "wheel": wheel,
         "rail": rail,
+        "fmi": fmi,
         **vars(reading),
     }
     repair, rotation = options.pop("profile_repair"), options.pop("profile_rotation")
@@ -79,6 +99,8 @@ def fmu(
     for name, pair in pairs.items():
         words += [f"--{name.replace('_', '-')}", *map(str, pair)] if pair else []
     words += ["--profile-rotation", *map(str, rotation)]
+    words += [f"--model={one}" for one in model or ()]
+    words += [f"--platform={one}" for one in platform or ()]
     switches = {
         "--accumulation": accumulation,
         "--surfaces": surfaces,

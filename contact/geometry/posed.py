@@ -6,7 +6,7 @@ from typing import Any, Literal
 
 import numpy as np
 
-from contact.errors import ContactError, doubt, require_number
+from contact.errors import ContactError, require_number
 from contact.geometry.records import Irregularity, Pose, Velocity
 from contact.kernels.enumerations import Height, NoAnswer
 from contact.kernels.geometry.settle import DEEPEST
@@ -17,7 +17,6 @@ from contact.plausibility import doubt_value
 Side = Literal["right", "left"]
 
 MAX_PENETRATION = 2e-3  # [m] that of a wheel under 10 MN; a larger value has a wrong unit
-LARGEST_SLIP = 0.55  # of a wheel that is driven or braked; `contact.pair.drive` searches up to 0.5
 _ROLLING, _IDEAL = Velocity(), Irregularity()
 
 
@@ -89,8 +88,7 @@ class Posed(OwnsArrays):
             found.append(doubt_value("speed", velocity.forward, "velocity.forward"))
         if velocity is not None and velocity.spin is not None and velocity.forward > 0.0:
             slip = 1.0 + velocity.spin * self.nominal_radius / velocity.forward
-            hint = "a rolling wheel has less than 0.02; spin is negative when rolling forward, about -forward/radius"
-            found.append(doubt(f"velocity.spin = {velocity.spin:g}: longitudinal creepage", slip, LARGEST_SLIP, hint))
+            found.append(doubt_value("slip", slip, f"velocity.spin = {velocity.spin:g}: longitudinal creepage"))
         self._doubted = any(found)
 
     @staticmethod

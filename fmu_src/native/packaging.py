@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from pathlib import Path
 
 from .. import archive
@@ -61,7 +61,13 @@ on 64-bit Linux, with x86 and, by qemu, ARM.
 """
 
 
-def build(model: Model, folder: Path, say: Callable[[str], None] = print, *, arm: bool = False) -> list[Path]:
+def build(
+    model: Model,
+    folder: Path,
+    say: Callable[[str], None] = print,
+    versions: Sequence[int] = (2, 3),
+    platforms: Sequence[str] = systems.USUAL,
+) -> list[Path]:
     """Write `folder`/<name>.fmu (FMI 2.0) and `folder`/fmi3/<name>.fmu (FMI 3.0) and return their paths.
 
     Both have the same libraries and sources. The same sources and tools give the same bytes.
@@ -70,15 +76,16 @@ def build(model: Model, folder: Path, say: Callable[[str], None] = print, *, arm
     ----------
     say : callable
         Called with a message on progress, since a checkout builds the libraries first, which takes minutes.
-    arm : bool
-        Add the libraries for 64-bit ARM, which are compiled from the sources.
+    versions : sequence of int
+        Versions of FMI.
+    platforms : sequence of str
+        Systems of the libraries; those of 64-bit ARM are compiled from the sources.
     """
     component = model.component()
     table, kinds = component.table, ("ModelExchange", "CoSimulation")[not component.exchange :]
     interfaces, interfaces_3 = ({kind: each[kind] for kind in kinds} for each in (INTERFACES, INTERFACES_3))
-    wanted = (*systems.USUAL, *(systems.ARM if arm else ()))
-    made = systems.folder(wanted, say)
-    libraries = {system: made / system / systems.SYSTEMS[system] for system in wanted}
+    made = systems.folder(platforms, say)
+    libraries = {system: made / system / systems.SYSTEMS[system] for system in platforms}
     binaries = {system: (path.suffix, path.read_bytes()) for system, path in libraries.items()}
     files = _sources(component, made)
     listed = [name for name in files if name.endswith(".c")]
@@ -105,7 +112,9 @@ def build(model: Model, folder: Path, say: Callable[[str], None] = print, *, arm
         of_2.append((f"binaries/{platform}/{table.name}{end}", binary))
         of_3.append((f"binaries/{_FMI3.get(platform, platform)}/{table.name}{end}", binary))
     return [
-        archive.write(where / f"{table.name}.fmu", files) for where, files in ((folder, of_2), (folder / "fmi3", of_3))
+        archive.write(where / f"{table.name}.fmu", files)
+        for version, where, files in ((2, folder, of_2), (3, folder / "fmi3", of_3))
+        if version in versions
     ]
 
 

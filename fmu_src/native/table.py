@@ -9,6 +9,7 @@ from __future__ import annotations
 import struct
 from collections.abc import Iterator
 
+from .. import doubts
 from ..resources import checksum
 from ..variables import Causality, Scalar, Table, Variable
 from .component import Component
@@ -50,6 +51,7 @@ class _Writer:
         messages += [(_DISCARD, i, text) for i, text in component.failures.items()]
         by_number = {int(i): (category, self.text(text)) for category, i, text in messages}
         last = max([0, *by_number])
+        doubted = [self.doubt(rule) for rule in doubts.rules(table)]
         parts = [
             *self.variables(),
             *(
@@ -64,6 +66,7 @@ class _Writer:
             *(struct.pack("<qq", self.at(row.name), self.at(row.twin_of)) for row in (*given, *shown)),
             *(struct.pack("<q8sqq", self.text(r.name), r.magic, r.rows, r.most) for r in component.resources),
             *(struct.pack("<q", self.at(row)) for row in (*component.derived, *component.derived_by)),
+            *doubted,
             component.own.astype("<i8").tobytes(),
         ]
         names = (self.text(guid), self.text(table.name), self.text(component.kind))
@@ -72,13 +75,19 @@ class _Writer:
         counts = (
             len(table.scalars) - accumulated, accumulated, len(table.fields), parameters, len(table.states), last,
             len(component.totals), len(given), len(shown), len(component.resources),
-            len(component.derived), len(component.derived_by),
+            len(component.derived), len(component.derived_by), len(doubted),
         )  # fmt: skip
         accumulates = self.at(component.accumulates) if accumulated else _NONE
         head = (*names, *counts, accumulates, *self.field(), component.own.size, len(texts))
         body = struct.pack(f"<{len(head)}q", *head) + b"".join(parts) + texts
         body = struct.pack("<Q", len(body) + 8) + body
         return MAGIC + struct.pack("<Q", checksum(body)) + body
+
+    def doubt(self, rule: doubts.Rule) -> bytes:
+        first, *rest = (self.at(row) for row in rule.rows)
+        other, factor = rest or (_NONE, _NONE)
+        usual, n = rule.usual, self.table.row[rule.rows[0]].size
+        return struct.pack("<4q2dq", first, n, other, factor, usual.least, usual.largest, self.text(doubts.text(rule)))
 
     def at(self, row: str) -> int:
         return self.table.span[row].start

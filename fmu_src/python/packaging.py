@@ -8,7 +8,7 @@ name, both run the code of the first, and numba's cache never hits for code in a
 from __future__ import annotations
 
 import hashlib
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
 from importlib.metadata import distribution
 from pathlib import Path
 
@@ -54,12 +54,12 @@ class {name}({slave}):
 '''
 
 
-def build(model: Model, folder: Path) -> Path:
-    """Write `folder`/<name>.fmu and return its path. The same sources give the same bytes."""
-    return archive.write(folder / f"{model.table.name}.fmu", _files(model))
+def build(model: Model, folder: Path, platforms: Collection[str] = tuple(entries.FILES)) -> Path:
+    """Write `folder`/<name>.fmu, for those `platforms` that pythonfmu serves. The same sources give the same bytes."""
+    return archive.write(folder / f"{model.table.name}.fmu", _files(model, platforms))
 
 
-def _files(model: Model) -> Iterator[tuple[str, bytes]]:
+def _files(model: Model, platforms: Collection[str]) -> Iterator[tuple[str, bytes]]:
     name = model.table.name
     guid, xml = model_description(model.table, INTERFACES)
     yield "modelDescription.xml", xml.encode()
@@ -80,6 +80,8 @@ def _files(model: Model) -> Iterator[tuple[str, bytes]]:
     for source in package.glob("*.py"):
         yield f"resources/pythonfmu/{source.name}", source.read_bytes()
     for system, entry in entries.libraries().items():
+        if system not in platforms:
+            continue
         (library,) = (package / "resources" / "binaries" / system).iterdir()
         yield f"binaries/{system}/{name}{library.suffix}", entry
         yield f"binaries/{system}/pythonfmu-export{library.suffix}", library.read_bytes()

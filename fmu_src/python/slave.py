@@ -23,6 +23,7 @@ from contact import __version__
 from contact.errors import ContactError
 from ..description import LOG_CATEGORIES, model_description
 from ..variables import Causality, Kind, Table
+from .doubting import Doubting
 from .ending import release_once
 from .values import Rows, SlaveValues
 
@@ -164,6 +165,7 @@ class TableSlave(Fmi2Slave):
         self._least = np.maximum(least, -sys.float_info.max)
         self._greatest = np.minimum([s.maximum for s in scalars], sys.float_info.max)
         self._choices = [(row.name, row.twin_of) for row in table.twins if row.is_given]
+        self._doubts = Doubting(table)
         self._mirrors = [(row.name, row.twin_of) for row in table.twins if not row.is_given]
 
     # ---------------------------------------------------------------- implemented by a model
@@ -243,6 +245,8 @@ class TableSlave(Fmi2Slave):
         given = self._checked_values()
         new = self._mirrored(self.outputs(given, step_size))
         self.values = self.values.updated(new)
+        for message in self._doubts.messages(given):
+            self.log(message, Fmi2Status.warning)
         if self.lazy:
             self.solved, self.lazy_is_stale = given.updated(new), True
 

@@ -93,8 +93,8 @@ def _fmus(
     for path in paths:
         if not path.is_file():
             stop(
-                f"{path} is missing; make it with  python build_fmu.py --out {folder}  in a checkout, with  "
-                f"contact fmu --out {folder}  elsewhere, or use --python",
+                f"{path} is missing; make it with  python build_fmu.py --packaging python --out {folder}  in a checkout, with  "
+                f"contact fmu --packaging python --out {folder}  elsewhere, or use --python",
                 1,
             )
     wheelset = {"speed": parameters.speed, "initial.lateral": parameters.lateral}

@@ -67,6 +67,36 @@ Status say(const Instance *instance, int64_t number)
     return m->category ? report(instance, (Category)m->category, "%s", TEXT(m->text)) : OK;
 }
 
+/* Return the first number of a doubt that is not usual, with its place in `at`, or 0. */
+static double unusual(const Instance *instance, const Doubt *d, const double *values, size_t *at)
+{
+    for (*at = (size_t)d->value; *at < (size_t)(d->value + d->n); ++*at) {
+        double x = values[*at], size;
+        if (d->other != NONE) x = values[d->other] > 0.0 ? 1.0 + x * values[d->factor] / values[d->other] : 0.0;
+        size = fabs(x);
+        if ((size > d->largest || (size > 0.0 && size < d->least)) && is_used(&instance->table.variables[*at], values)) return x;
+    }
+    return 0.0;
+}
+
+/* Log each doubt about the present values, once for an instance. */
+Status tell_doubts(Instance *instance)
+{
+    Status status = OK;
+    for (size_t i = 0; i < N(doubts); i++) {
+        const Doubt *d = &instance->table.doubts[i];
+        size_t at;
+        double x;
+        if (instance->doubted >> i & 1u) continue;
+        x = unusual(instance, d, instance->values, &at);
+        if (x == 0.0) continue;
+        instance->doubted |= (uint64_t)1 << i;
+        status = report(instance, LOG_WARNING, "%s = %g: %s", TEXT(instance->table.variables[at].name), instance->values[at],
+                        TEXT(d->text));
+    }
+    return status;
+}
+
 enum { CACHE_LINE = 64 };
 
 void free_work(Instance *instance)
@@ -179,9 +209,10 @@ Status update(Instance *instance, double h, bool warm)
     memcpy(instance->solved, values, N(values) * sizeof(double));
     instance->is.is_new = false;
     instance->is.lazy_stale = true;
-    if (number == instance->is.said) return OK;
+    status = tell_doubts(instance);
+    if (number == instance->is.said) return status;
     instance->is.said = number;
-    return say(instance, number);
+    return say(instance, number) == OK ? status : WARNING; /* a failure has been said above */
 }
 
 /* Restore working memory to the state of the last outputs, bit for bit, if it has been used since. */

@@ -102,12 +102,22 @@ typedef struct {
     uint64_t text;
 } Message;
 
+/* A number that is allowed but not usual: the value, of an array any of its n ones, or, of a wheel that moves forward, the
+ * slip 1 + value * factor / other. Zero is usual. */
+typedef struct {
+    int64_t value, n, other, factor;
+    double least, largest; /* magnitudes */
+    uint64_t text;
+} Doubt;
+enum { MOST_DOUBTS = 64 };
+
 /* How model.bin begins, after its magic bytes and its checksum. */
 typedef struct {
     uint64_t bytes; /* of the file from here on */
     uint64_t guid, name, kind; /* texts */
     uint64_t n_values, n_accumulated, n_fields, n_parameters, n_states, n_messages, n_totals, n_choices, n_mirrors, n_resources;
     uint64_t n_derived, n_derived_by; /* rows and columns of the matrix of derivatives that the kernels know */
+    uint64_t n_doubts;
     int64_t accumulates; /* enumeration: nothing accumulates with its first item; or NONE */
     int64_t field_factor, field_by[2]; /* size of a field: this number times two parameters, or NONE */
     uint64_t n_own, n_text; /* numbers for the kernels; bytes of all texts */
@@ -126,6 +136,7 @@ typedef struct {
     const Twin *choices, *mirrors;
     const Resource *resources;
     const int64_t *derived, *derived_by; /* value references */
+    const Doubt *doubts;
     const double *own;
     const char *text;
 } Table;
@@ -195,6 +206,7 @@ typedef struct {
     bool arrays; /* FMI 3.0: a value reference denotes a whole array */
     char name[256]; /* a longer name is cut */
     int categories;
+    uint64_t doubted; /* a bit for each doubt that was logged */
     Log log;
 } Instance;
 
@@ -291,6 +303,7 @@ Status check_ranges(const Instance *instance, const double *values, size_t n);
 Status prepare(Instance *instance, double *values);
 bool has_failed(const Instance *instance, int64_t number); /* whether the number of a message means that nothing was computed */
 Status say(const Instance *instance, int64_t number);
+Status tell_doubts(Instance *instance);
 int64_t evaluate(const Instance *instance, double *values, double h); /* does not change the content, but uses working memory */
 Status update(Instance *instance, double h, bool warm);
 void accumulate(Instance *instance);

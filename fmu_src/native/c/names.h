@@ -57,6 +57,7 @@
 #define prepare OWN(prepare)
 #define has_failed OWN(has_failed)
 #define say OWN(say)
+#define tell_doubts OWN(tell_doubts)
 #define evaluate OWN(evaluate)
 #define update OWN(update)
 #define accumulate OWN(accumulate)

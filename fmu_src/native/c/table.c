@@ -46,8 +46,8 @@ static bool lay(Table *t)
     const Head *h = (const Head *)t->block;
     const char *at = (const char *)t->block + sizeof *h;
     const uint64_t counts[] = {h->n_values, h->n_accumulated, h->n_fields, h->n_states, h->n_messages, h->n_totals,
-                               h->n_choices, h->n_mirrors, h->n_resources, h->n_derived, h->n_derived_by, h->n_own,
-                               h->n_text};
+                               h->n_choices, h->n_mirrors, h->n_resources, h->n_derived, h->n_derived_by, h->n_doubts,
+                               h->n_own, h->n_text};
     for (size_t i = 0; i < sizeof counts / sizeof *counts; i++)
         if (counts[i] > LARGEST / 8) return false; /* the sums below do not overflow */
     t->head = h;
@@ -61,6 +61,7 @@ static bool lay(Table *t)
     PART(resources, h->n_resources);
     PART(derived, h->n_derived);
     PART(derived_by, h->n_derived_by);
+    PART(doubts, h->n_doubts);
     PART(own, h->n_own);
     PART(text, h->n_text);
     return at == (const char *)t->block + h->bytes;
@@ -114,6 +115,12 @@ static const char *fault(const Table *t)
         if (!IS_VALUE(t->derived[i])) return "derivatives";
     for (uint64_t i = 0; i < h->n_derived_by; i++)
         if (!IS_VALUE(t->derived_by[i])) return "derivatives";
+    if (h->n_doubts > MOST_DOUBTS) return "doubts";
+    for (uint64_t i = 0; i < h->n_doubts; i++) {
+        const Doubt *d = &t->doubts[i];
+        if (!IS_VALUE(d->value) || d->n < 1 || (uint64_t)d->n > n - (uint64_t)d->value || !IS_TEXT(d->text)) return "doubts";
+        if (d->other != NONE && !(IS_VALUE(d->other) && IS_VALUE(d->factor))) return "doubts";
+    }
     return NULL;
 }
 

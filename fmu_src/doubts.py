@@ -1,0 +1,59 @@
+"""Values that are allowed but that no wheel on a rail has: a message of both packagings, once for each instance and rule.
+
+The rules are those of Python (`contact.plausibility`), under the names of the variables.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import NamedTuple
+
+from contact.plausibility import USUAL, Usual
+from .variables import Table
+
+#: Row → rule. A wheel carries another load than a patch.
+_CONTACT = {"load.normal_force": "load"}
+_PAIR = {"load.normal_force": "wheel load"}
+_ROWS = {
+    "load.approach": "approach",
+    "creepage.longitudinal": "creepage.longitudinal",
+    "creepage.lateral": "creepage.lateral",
+    "creepage.spin": "creepage.spin",
+    "friction.coefficient": "friction",
+    "speed": "speed",
+    "velocity.x": "speed",
+    "geometry.A": "A",
+    "geometry.A0": "A",
+    "material.shear_modulus": "shear_modulus",
+    "material.pressure_limit": "pressure_limit",
+    "pose.y": "pose.y",
+    "pose.roll": "pose.roll",
+    "pose.yaw": "pose.yaw",
+}
+#: Rows of the slip of a wheel: 1 + first * third / second, of a wheel that moves forward.
+_SLIP = ("velocity.spin", "velocity.x", "wheel.radius")
+
+
+class Rule(NamedTuple):
+    """Rows of which a number is made, the first of which may be an array, and what is usual of it.
+
+    With one row the number is its value, with three it is the longitudinal slip.
+    """
+
+    rows: tuple[str, ...]
+    usual: Usual
+
+
+def rules(table: Table) -> Iterator[Rule]:
+    """Yield the rules for the rows that a host gives."""
+    pair = "velocity.spin" in table.row
+    for row, name in {**_ROWS, **(_PAIR if pair else _CONTACT)}.items():
+        if row in table.row and table.row[row].is_given:
+            yield Rule((row,), USUAL[name])
+    if pair and table.row[_SLIP[0]].is_given:
+        yield Rule(_SLIP, USUAL["slip"])
+
+
+def text(rule: Rule) -> str:
+    """Return what is said after the value."""
+    return rule.usual.hint if len(rule.rows) == 1 else f"the longitudinal creepage is too large: {rule.usual.hint}"

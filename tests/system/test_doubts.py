@@ -1,0 +1,95 @@
+"""FMUs tell what Python warns of: values that no wheel on a rail has, once for each instance and rule, in both packagings."""
+
+import warnings
+
+import fmpy
+import pytest
+from fmu_instance import WARNING, Instance
+from fmu_instance_fmi3 import Instance3
+
+from contact.errors import PlausibilityWarning
+from contact.geometry import profile
+from contact.geometry.wheelset import Pair, Pose, Velocity
+from contact.pair import WheelRailPair
+from contact.plausibility import USUAL
+
+#: Inputs of a pair, and what is said of them.
+PAIR = [
+    ({"velocity.x": 40.0}, "velocity.spin = -43.4783: the longitudinal creepage is too large: "),
+    ({"velocity.spin": 43.4783}, "velocity.spin = 43.4783: the longitudinal creepage is too large: "),
+    ({"friction.coefficient": 35.0}, "friction.coefficient = 35: "),
+    ({"load.normal_force": 80.0}, "load.normal_force = 80: "),
+    ({"velocity.x": 200.0, "velocity.spin": -434.0}, "velocity.x = 200: "),
+    ({"pose.roll": 0.06}, "pose.roll = 0.06: "),
+]
+
+
+@pytest.fixture(params=["python", "native"])
+def opened(request, fmus, native, tmp_path):
+    """Return a function that instantiates an FMU of each packaging."""
+    made = []
+
+    def opened(name: str) -> Instance:
+        path = (fmus if request.param == "python" else native.parent) / f"{name}.fmu"
+        made.append(Instance(fmpy.extract(str(path), str(tmp_path / f"{len(made)}"))))
+        return made[-1]
+
+    yield opened
+    for instance in made:
+        instance.free()
+
+
+def warned(instance: Instance) -> list[str]:
+    return [text for status, text in instance.log if status == WARNING and " = " in text]
+
+
+@pytest.mark.parametrize(("values", "message"), PAIR)
+def test_a_pair_doubts_a_value_once(opened, values, message):
+    fmu = opened("WheelRailPair")
+    fmu.initialize().step()
+    assert warned(fmu) == []
+    fmu.update(values)
+    for _ in range(3):
+        fmu.step()
+    assert [text[: len(message)] for text in warned(fmu)] == [message]
+
+
+def test_the_status_of_the_step_is_a_warning_and_the_next_one_is_ok(opened):
+    fmu = opened("WheelRailPair")
+    fmu.initialize()
+    fmu.update({"friction.coefficient": 35.0})
+    step = fmu.fmu.dll.fmi2DoStep
+    assert [step(fmu.fmu.component, 1e-3 * k, 1e-3, 0) for k in range(2)] == [WARNING, 0]
+
+
+def test_a_contact_doubts_its_own_values(opened):
+    fmu = opened("EllipticContact")
+    fmu.update({"load.normal_force": 80.0, "creepage.longitudinal": 0.5, "creepage.spin": 30.0, "speed": 200.0})
+    fmu.initialize().step()
+    named = [text.split(" = ")[0] for text in warned(fmu)]
+    assert sorted(named) == ["creepage.longitudinal", "creepage.spin", "load.normal_force", "speed"]
+
+
+def test_what_is_not_used_or_zero_is_not_doubted(opened):
+    fmu = opened("EllipticContact")
+    fmu.update({"load.kind": 2, "load.approach": 5e-5, "load.normal_force": 80.0, "speed": 0.0})
+    fmu.initialize().step()
+    assert warned(fmu) == []
+
+
+def test_fmi_3_says_the_same(native_fmi3_folder):
+    instance = Instance3(native_fmi3_folder)
+    instance.update({"friction.coefficient": 35.0})
+    instance.initialize()
+    instance.step()
+    assert any("friction.coefficient = 35: " in str(said) for said in instance.log)
+    instance.free()
+
+
+def test_python_doubts_the_same_motions():
+    """One table of rules: what the FMU says is what `WheelRailPair` warns of."""
+    pair = WheelRailPair(Pair(profile.s1002(), profile.rail_60e1()))
+    with pytest.warns(PlausibilityWarning, match="longitudinal creepage = 0.5"), warnings.catch_warnings():
+        warnings.simplefilter("always")
+        pair.solve(Pose(), Velocity(forward=40.0, spin=-20.0 / 0.46), load=80e3, friction=0.3)
+    assert 0.3 < USUAL["slip"].largest < 0.5
