@@ -4,16 +4,18 @@ from __future__ import annotations
 
 #: Unit → names of inputs and results that have it. "1" is a pure number.
 _NAMES = {
-    "m": "station wheel_z x z origin flat flat_depth begin end spacing step offset roller_radius deflection_y deflection_z "
+    "m": "cant lead height "
+    "station wheel_z x z origin flat flat_depth begin end spacing step offset roller_radius deflection_y deflection_z "
     "curve_radius smallest_radius needed available "
     "y radius gauge back_to_back left_radius reach amplitude penetration approach profile_smoothing profile_zero "
     "profile_wavelength smoothing wavelength centre position rolling_radius length width radius_difference right_on_wheel "
     "right_on_rail right_radius left_on_wheel left_on_rail distance at mileage on_rail_y on_rail_z on_wheel_y on_wheel_z",
     "rad": "rotation turned profile_rotation pitch roll yaw angle contact_angle angle_difference right_angle left_angle",
     "m/s": "speed velocity",
-    "N": "load vertical Q Y N Fx Fy Fz fx fy force preload force_x force_y normal_force T_gamma T_gamma_spin dissipation "
+    "N": "guiding "
+    "load vertical Q Y N Fx Fy Fz fx fy force preload force_x force_y normal_force T_gamma T_gamma_spin dissipation "
     "power_per_metre",
-    "N m": "Mx My Mz torque",
+    "N m": "Mx My Mz torque steering",
     "W": "power",
     "Pa": "p qx qy value pressure_limit max_pressure stress_index_max energy_index_max shear_modulus hardness shear_yield",
     "K": "temperature",
@@ -26,7 +28,7 @@ _NAMES = {
     "s": "seconds every duration time damping",
     "1": "friction profile_scale inclination slip_ratio used_friction utilisation sx sy "
     "longitudinal lateral conicity slope share gap_error fatigue_index "
-    "burstow index poisson_ratio coupling errors.force errors.moment errors.N errors.approach "
+    "burstow index Y_over_Q poisson_ratio coupling errors.force errors.moment errors.N errors.approach "
     "errors.max_pressure errors.area errors.pressure",
     "1, 1, 1/m": "creepage",
     "m, m, rad": "shift",

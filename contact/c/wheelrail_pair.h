@@ -274,7 +274,7 @@ int wr_pair_input_default(const wr_pair_options *o, double mu, double speed, dou
 static int check_motion(const wr_motion *m) {
     const double *all = (const double *)m;
     TRY(finite_all(all, (int64_t)(sizeof *m / sizeof *all), A_motion));
-    int sane = fabs(m->roll) <= WR_LARGEST_ANGLE && fabs(m->yaw) <= WR_LARGEST_ANGLE && m->vx >= 0.0;
+    int sane = fabs(m->roll) <= WR_LARGEST_ANGLE && fabs(m->yaw) <= WR_LARGEST_ANGLE;
     return sane && fabs(m->rail_roll) <= WR_LARGEST_RAIL_ROLL ? 0 : bad(A_motion, R_RANGE);
 }
 
@@ -316,7 +316,8 @@ static int solve_pair(void *memory, int cold, const wr_pair_input *in, wr_pair_a
     wr_motion motion = in->motion;
     wr_wheel_offset offset = in->offset;
     wr_pair_answer made = {.size = sizeof made};
-    surface.speed = motion.vx;
+    if (head->kind == SURFACES && motion.vx < 0.0) return bad(A_motion, R_RANGE);
+    surface.speed = fabs(motion.vx);
     rail.dy = rail.dz = 0.0;
     rail.balanced = 0;
     head->answered = 0;

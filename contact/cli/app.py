@@ -18,7 +18,9 @@ import contact
 from contact.cli import arguments, creep_table, extras, problem, report
 from contact.cli import options as opt
 from contact.cli.along import along
+from contact.cli.commas import Commands
 from contact.cli.compare import compare
+from contact.cli.curving import curving
 from contact.cli.document import flat, in_effect
 from contact.cli.geometry import conicity, list_profiles
 from contact.cli.geometry import geometry as points
@@ -42,6 +44,7 @@ from contact.separation import Separation
 PICTURE_RESOLUTION = {"n_strips": 60, "n_elements": 60}
 
 app = typer.Typer(
+    cls=Commands,
     name="contact",
     help="Wheel-rail contact: patches, pressure, creep forces and damage. All input and JSON are in SI units; "
     "forces act on the wheel.",
@@ -211,6 +214,7 @@ app.command()(transient)
 app.command("rail")(elastic_rail)
 app.command()(in_time)
 app.command()(roller)
+app.command()(curving)
 app.command()(lut)
 app.command()(along)
 app.command("geometry")(points)

@@ -10,7 +10,7 @@ from contact.cli import options as opt
 from contact.cli.document import in_effect
 from contact.cli.problem import OF_A_POSITION, Pose, Position
 from contact.creepage import Creepage
-from contact.errors import ContactError
+from contact.errors import ContactError, warn
 from contact.friction import ROOM_TEMPERATURE, Friction, as_friction
 from contact.geometry import profile
 from contact.halfspace.third_body import ThirdBody
@@ -93,6 +93,8 @@ class PlaceOptions:
 
     def position(self, reading: Reading, side: opt.SideOption) -> Position:
         """Return the wheelset with its profiles."""
+        if self.speed == 0.0:
+            warn("speed = 0: the wheelset stands, so it has no creepage, and creep forces and damage are 0")
         return Position(
             reading.load(self.wheel, "wheel"),
             reading.load(self.rail, "rail"),

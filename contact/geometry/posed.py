@@ -10,18 +10,19 @@ from contact.errors import ContactError, require_number
 from contact.geometry.records import Irregularity, Pose, Velocity
 from contact.kernels.enumerations import Height, NoAnswer
 from contact.kernels.geometry.settle import DEEPEST
-from contact.kernels.records import GIVEN
+from contact.kernels.records import GIVEN, SLOWEST
 from contact.ownership import OwnsArrays, one_thread
 from contact.plausibility import doubt_value
 
 Side = Literal["right", "left"]
 
+_REFERENCES = 1e-6, 10.0  # [m/s]
 MAX_PENETRATION = 2e-3  # [m] that of a wheel under 10 MN; a larger value has a wrong unit
 _ROLLING, _IDEAL = Velocity(), Irregularity()
 
 
 class Posed(OwnsArrays):
-    """A wheel of one side with its nominal radius [m], 0.05 to 2.
+    """A wheel of one side with its nominal radius [m], 0.05 to 2, and the speed below which creepages refer to it [m/s].
 
     Raises
     ------
@@ -29,14 +30,16 @@ class Posed(OwnsArrays):
         For another side or a radius outside its range.
     """
 
+    rolls_back = True  # whether the forward speed may be negative
     space: Any  # arrays of the search: `Search` or `SurfaceSearch` of `contact.kernels.arrays`
 
-    def __init__(self, side: Side, nominal_radius: float) -> None:
+    def __init__(self, side: Side, nominal_radius: float, reference_speed: float = SLOWEST) -> None:
         if side not in ("right", "left"):
             raise ContactError(f"side = {side!r} is neither 'right' nor 'left'")
         self.side: Side = side
         self._mirror = 1.0 if side == "right" else -1.0
         self.nominal_radius = require_number("nominal_radius", nominal_radius, 0.05, 2.0)
+        self.reference_speed = require_number("reference_speed", reference_speed, *_REFERENCES)
         self._doubted = False
         self.told: set[str] = set()  # for what there was a ModelWarning
 
@@ -63,6 +66,11 @@ class Posed(OwnsArrays):
         ):
             if not isinstance(argument, kind):
                 raise ContactError(f"{name} = {argument!r} is not a contact.geometry.wheelset.{kind.__name__}")
+        if velocity.forward < 0.0 and not self.rolls_back:
+            raise ContactError(
+                f"velocity.forward = {velocity.forward:g} is negative: on surfaces that change along the way a wheel rolls "
+                "forward only; turn the rail and the wheelset by 180 degrees"
+            )
         spin = -velocity.forward / self.nominal_radius if velocity.spin is None else velocity.spin
         given = np.zeros(1, GIVEN)[0]
         given.y, given.z, given.roll, given.yaw = pose.y, pose.z, pose.roll, pose.yaw

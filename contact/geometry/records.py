@@ -28,7 +28,7 @@ class Pose:
 
 @dataclass(frozen=True, slots=True)
 class Velocity:
-    """Velocity of the wheelset: forward ≥ 0, y, z [m/s]; rates of roll, yaw and spin [rad/s].
+    """Velocity of the wheelset: forward, y, z [m/s]; rates of roll, yaw and spin [rad/s]. It rolls backwards if forward < 0.
 
     Spin is the rotation about the axle. None means free rolling at the nominal radius, -forward/nominal_radius.
     """
@@ -41,7 +41,7 @@ class Velocity:
     spin: float | None = None
 
     def __post_init__(self) -> None:
-        require_number("velocity.forward", self.forward, 0.0)
+        require_number("velocity.forward", self.forward)
         for name in ("y", "z", "roll", "yaw"):
             require_number(f"velocity.{name}", getattr(self, name))
         if self.spin is not None:

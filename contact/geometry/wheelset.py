@@ -34,7 +34,7 @@ from contact.geometry.shape import Profile
 from contact.kernels.arrays import Search
 from contact.kernels.geometry.prepare import facing, move, rail_origin, take_nodes
 from contact.kernels.geometry.settle import first_touch, settle
-from contact.kernels.records import MAX_PATCHES, TAPE_FROM_FLANGE_BACK
+from contact.kernels.records import MAX_PATCHES, SLOWEST, TAPE_FROM_FLANGE_BACK
 from contact.kernels.rows import Curve
 from contact.material import STEEL, Material
 from contact.ownership import one_thread, within
@@ -78,6 +78,11 @@ class Pair(Posed):
         gap opens at 45° beyond the ends of the profiles and of the patch's own range.
     material : Material
         Material for a search under a load.
+    reference_speed : float
+        Creepages are sliding velocities over the forward speed, or over this speed if the wheelset is slower [m/s], 1e-6 to
+        10. So a wheel at rest resists sliding like a damper, Kalker's coefficient over this speed. A model with fixed steps h
+        is stable down to rest if it is above f h/(2 m), with that coefficient f [N] and the least mass m that can slide,
+        of an axle its inertia over the radius squared; other models may take less.
 
     Attributes
     ----------
@@ -109,11 +114,12 @@ class Pair(Posed):
         most_patches: int = MAX_PATCHES,
         samples: int | ArrayLike = SAMPLES,
         material: Material = STEEL,
+        reference_speed: float = SLOWEST,
     ) -> None:
         for name, given in (("wheel", wheel), ("rail", rail)):
             if not isinstance(given, Profile) or given.kind != name:
                 raise ContactError(f"{name} = {given!r} is not a profile of a {name}")
-        super().__init__(side, nominal_radius)
+        super().__init__(side, nominal_radius, reference_speed)
         self.profiles = wheel, rail
         grid, n = _grid(samples)
         self.space: Search = workspace.search(_facing(wheel), _facing(rail), grid, n)
@@ -124,7 +130,7 @@ class Pair(Posed):
         motion.combine_distance = require_number("combine_distance", combine_distance, 0.0)
         motion.combine_angle = require_number("combine_angle", combine_angle, 0.0)
         motion.most_patches = require_integer("most_patches", most_patches, 1, MAX_PATCHES)
-        motion.mirror = self._mirror
+        motion.mirror, motion.slowest = self._mirror, self.reference_speed
         motion.origin_y, motion.origin_z = origin
         self._widths = f"gauge = {gauge:g} and flange_back = {flange_back:g}"
         self.space.case["G"], self.space.case["nu"] = material.shear_modulus, material.poisson_ratio

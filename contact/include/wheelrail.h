@@ -181,7 +181,8 @@ typedef struct {
     int64_t height; /* WR_HEIGHT_GIVEN: motion.z; _PENETRATION: amount [m]; _LOAD: the normal forces carry amount [N];
                        _VERTICAL: normal and friction forces together carry amount [N] */
     double amount;
-    wr_motion motion;      /* pose and velocity of the wheelset, irregularity of the rail */
+    wr_motion motion;      /* pose and velocity of the wheelset, irregularity of the rail; vx < 0 rolls backwards, on
+                              profiles only: fields and strips of its patches are then those of its mirror image in x */
     wr_case surface;       /* methods, material, friction: as wr_contact_case fills it; loads and creepages are ignored */
     wr_elastic_rail rail;  /* springs; 0: rigid */
     wr_wheel_offset offset; /* displacement of the wheel against its wheelset */

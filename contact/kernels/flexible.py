@@ -46,7 +46,52 @@ def displace(given, offset, tape, displaced):
 
 
 @kernel
+def reflect(given, offset):
+    """Reflect the motion of a wheelset and the offset of its wheel in the plane across the track, x to -x.
+
+    A wheel that rolls backwards is one that rolls forwards in that mirror.
+    """
+    given.yaw, given.yaw_rate, given.spin, given.vx = -given.yaw, -given.yaw_rate, -given.spin, -given.vx
+    offset.x, offset.pitch, offset.yaw = -offset.x, -offset.pitch, -offset.yaw
+    offset.x_rate, offset.pitch_rate, offset.yaw_rate = -offset.x_rate, -offset.pitch_rate, -offset.yaw_rate
+
+
+@kernel
+def _reflect_answer(n, contacts, total):
+    """Reflect the forces, moments and creepages of `n` patches likewise."""
+    total.Fx, total.My, total.Mz = -total.Fx, -total.My, -total.Mz
+    for k in range(n):
+        contact = contacts[k]
+        contact.x, contact.pitch = -contact.x, -contact.pitch
+        contact.Fx, contact.My, contact.Mz = -contact.Fx, -contact.My, -contact.Mz
+        contact.longitudinal, contact.spin = -contact.longitudinal, -contact.spin
+
+
+@kernel
+def turn_memory(memory, backwards):
+    """Forget the last solution if it rolled in the other direction. Backwards its number of patches is kept as negative."""
+    if (memory[0] < 0.0) != backwards:
+        memory[:] = 0.0
+    memory[0] = abs(memory[0])
+
+
+@kernel
 def solve_flexible(mode, amount, given, bench):
+    """As `_solve_forwards`, also for a wheelset that rolls backwards on a rail that is constant along the track."""
+    memory, backwards = bench.memory, given.vx < 0.0
+    turn_memory(memory, backwards)
+    if not backwards:
+        return _solve_forwards(mode, amount, given, bench)
+    reflect(given, bench.offset[0])
+    code = _solve_forwards(mode, amount, given, bench)
+    reflect(given, bench.offset[0])
+    _reflect_answer(max(code, 0), bench.contacts, bench.total[0])
+    memory[0] = -memory[0]
+    return code
+
+
+@kernel
+def _solve_forwards(mode, amount, given, bench):
     """As `solve_on_rail`, for the wheel with the displacement `bench.offset` against its wheelset.
 
     Moment and height are those of the wheelset. Without displacement the results are those of `solve_on_rail`, bit for bit.

@@ -7,7 +7,7 @@ f = 0, df/dz dz + df/dq dq = 0, the column of q gains the column of z times dz/d
 from contact.core import entry, kernel
 from contact.kernels.arrays import Aside, Bench, Given, Search, SurfaceSearch
 from contact.kernels.enumerations import Height
-from contact.kernels.flexible import displace
+from contact.kernels.flexible import displace, reflect
 from contact.kernels.geometry.prepare import move
 from contact.kernels.geometry.settle import begin
 from contact.kernels.pair_jacobian import HEIGHT, UPWARD, derive
@@ -158,7 +158,7 @@ def _refer_to_wheelset(given, bench, aside):
 
 
 @kernel
-def derive_pair(mode, given, bench, aside):
+def _derive_forwards(mode, given, bench, aside):
     """Fill `aside.jacobian` for the last solution of `bench`, of the motion `given`. Return the number of patches.
 
     Columns are `Moved`. Rows are force and moment of `bench.total`, then its z.
@@ -190,6 +190,26 @@ def derive_pair(mode, given, bench, aside):
     still = still and offset.roll_rate == 0.0 and offset.yaw_rate == 0.0
     if not still:
         _refer_to_wheelset(given, bench, aside)
+    return n
+
+
+@kernel
+def derive_pair(mode, given, bench, aside):
+    """As `_derive_forwards`, also for a wheelset that rolls backwards: the derivatives of what is seen in the mirror."""
+    if not given.vx < 0.0:
+        return _derive_forwards(mode, given, bench, aside)
+    memory, jacobian = bench.memory, aside.jacobian
+    memory[0] = abs(memory[0])
+    reflect(given, bench.offset[0])
+    n = _derive_forwards(mode, given, bench, aside)
+    reflect(given, bench.offset[0])
+    memory[0] = -memory[0]
+    for j in range(jacobian.shape[1]):
+        for i in (0, 4, 5):
+            jacobian[i, j] = -jacobian[i, j]
+    for j in (Moved.YAW.value, Moved.VX.value, Moved.YAW_RATE.value, Moved.SPIN.value):
+        for i in range(jacobian.shape[0]):
+            jacobian[i, j] = -jacobian[i, j]
     return n
 
 

@@ -308,17 +308,18 @@ def _derive_by_pose(j, width, rise, n, aside):
 def _derive_by_velocity(j, n, aside):
     """Fill column j of the slopes of the creepages of the middle pose."""
     numbers, creeps, motion = aside.numbers, aside.creeps, aside.bench.search.motion[0]
-    speed = max(numbers[Moved.VX], SLOWEST)
+    slowest = motion.slowest if motion.slowest > 0.0 else SLOWEST
+    speed = max(numbers[Moved.VX], slowest)
     before = numbers[j]
     numbers[j] = before + 1.0
     move(aside.given[0], motion)
     numbers[j] = before
-    faster = max(before + 1.0, SLOWEST) if j == Moved.VX else speed
+    faster = max(before + 1.0, slowest) if j == Moved.VX else speed
     for k in range(n):
         patch, moved = aside.patches[k], aside.bench.search.patches[k]
         axes = tilted(0.0, 0.0, 0.0, patch.angle, patch.pitch)[3:]
         slip(motion, axes, patch.x, patch.point_y, patch.point_z, moved)
-        own = 1.0 if j == Moved.VX and before > SLOWEST else 0.0  # the creepages refer to this speed
+        own = 1.0 if j == Moved.VX and before > slowest else 0.0  # the creepages refer to this speed
         creeps[k, 0, j] = (moved.vx * faster - patch.vx * speed - own * patch.vx) / speed
         creeps[k, 1, j] = (moved.vy * faster - patch.vy * speed - own * patch.vy) / speed
         creeps[k, 2, j] = (moved.phi * faster - patch.phi * speed - own * patch.phi) / speed

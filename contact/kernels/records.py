@@ -158,6 +158,7 @@ MOTION = _record(
     tilted:int      1 for frames along the normal of the surface, 0 for frames turned about x only
     changing:int    1 in a search over surfaces, where the wheel is no body of revolution
     missed          error of the last search under a load over the load [-]
+    slowest         speed below which creepages refer to it [m/s]; 0 stands for SLOWEST
     """,
 )
 

@@ -6,6 +6,7 @@ penetration, a force, a torque. `run` takes a motion over time or along the way.
 """
 
 from contact.pair.contact_damping import ContactDamping
+from contact.pair.curving import Curving, in_curve
 from contact.pair.elastic_rail import ElasticRail
 from contact.pair.friction_memory import FrictionMemory
 from contact.pair.halfspace import HalfspacePair, solver_for
@@ -18,6 +19,7 @@ from contact.pair.wheel_rail import WheelRailPair
 __all__ = [
     "Contact",
     "ContactDamping",
+    "Curving",
     "ElasticRail",
     "FrictionMemory",
     "HalfspacePair",
@@ -28,6 +30,7 @@ __all__ = [
     "PoseForces",
     "RollerRig",
     "WheelRailPair",
+    "in_curve",
     "over_poses",
     "solver_for",
 ]

@@ -213,7 +213,7 @@ def _row(s: PairSolution, force: Array, side: str, coefficient: float, speed: fl
         "spin": s.spin,
         "patches": float(len(s.contacts)),
         "max_pressure": s.max_pressure,
-        "power": speed * s.power_per_metre,
+        "power": abs(speed) * s.power_per_metre,
         "power_per_metre": s.power_per_metre,
         "gap_error": s.gap_error,
         "status": float(s.status),
@@ -261,4 +261,4 @@ def _sliding(solution: PairSolution, speed: float) -> float:
     if not solution.contacts:
         return 0.0
     creepage = max(solution.contacts, key=lambda patch: patch.N).creepage
-    return speed * math.hypot(creepage.longitudinal, creepage.lateral)
+    return abs(speed) * math.hypot(creepage.longitudinal, creepage.lateral)

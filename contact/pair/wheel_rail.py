@@ -173,7 +173,9 @@ class WheelRailPair(AnyPair):
         Parameters
         ----------
         pose, velocity, load, penetration, irregularity :
-            As for `contact.geometry.wheelset.contacts`. The normal forces alone carry `load`, by the normal method of
+            As for `contact.geometry.wheelset.contacts`. A wheelset with `velocity.forward` < 0 rolls backwards: forces and
+            creepages stay in the track's axes, creepages refer to |forward|. Not on surfaces that change along the
+            way. The normal forces alone carry `load`, by the normal method of
             this pair; friction adds to the vertical force or relieves it.
         station, rotation : float
             Position of the axle along the slices of the rail [m], and angle by which the wheel has turned about the y axis
@@ -253,7 +255,7 @@ class WheelRailPair(AnyPair):
         self._set_offset(_STRAIGHT if offset is None else offset)
         turned = rotation + self._offset.pitch
         given = within(self.pair.given)(pose, velocity, irregularity, station=station, rotation=turned)
-        set_surface(self.bench.case, as_friction(friction), float(given.vx))
+        set_surface(self.bench.case, as_friction(friction), abs(float(given.vx)))
         code = self._solve(mode, amount, given, self._packed)
         if code == NoAnswer.TURNED:
             raise ContactError(
@@ -300,6 +302,7 @@ class WheelRailPair(AnyPair):
         """
         if not isinstance(self.pair, Pair):
             raise ContactError(f"{self.pair!r} changes along the way; contact.plot.passage draws what `run` returns")
+        require_number("velocity.forward", (velocity or Velocity()).forward, 0.0)
         found = self.solve(pose, velocity, **given)
         velocity = replace(velocity or Velocity(), spin=found.spin)
         rail = given.get("irregularity")

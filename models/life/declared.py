@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import tomllib
 import types
 from dataclasses import MISSING, fields, is_dataclass
@@ -45,23 +46,41 @@ def build(kind: type[Kind], table: object, where: str) -> Kind:
     Raises
     ------
     ContactError
-        For unknown or missing keys, wrong types, and values that `kind` refuses. The message names the place.
+        For unknown or missing keys, wrong types, and values that `kind` refuses. The message names the place of each, on a
+        line of its own.
     """
     if not isinstance(table, dict):
         raise ContactError(f"{where} = {table!r} is not a table")
     hints = get_type_hints(kind)
     known = {entry.name: entry for entry in fields(kind) if entry.init}  # type: ignore[arg-type]
-    for key in table:
-        if key not in known:
-            raise ContactError(f"{where}.{key} is unknown{suggestion(key, known)}; allowed: {', '.join(known)}")
-    for name, entry in known.items():
-        if name not in table and entry.default is MISSING and entry.default_factory is MISSING:
-            raise ContactError(f"{where}.{name} is missing")
-    values = {key: _convert(hints[key], value, f"{where}.{key}") for key, value in table.items()}
-    try:
-        return kind(**values)
-    except ContactError as error:
-        raise ContactError(f"{where}: {error}") from None
+    faults = [
+        f"{where}.{key} is unknown{suggestion(key, known)}; allowed: {', '.join(known)}"
+        for key in table
+        if key not in known
+    ]
+    needed = [name for name, each in known.items() if each.default is MISSING and each.default_factory is MISSING]
+    faults += [f"{where}.{name} is missing" for name in needed if name not in table]
+    values = {}
+    for key in (key for key in table if key in known):
+        try:
+            values[key] = _convert(hints[key], table[key], f"{where}.{key}")
+        except ContactError as error:
+            faults.append(str(error))
+    made = None
+    while all(name in values for name in needed):
+        try:
+            made = kind(**values)
+            break
+        except ContactError as error:
+            faults.append(f"{where}: {error}")
+            wrong = next(iter(re.findall(r"^(?:n_)?(\w+)", str(error))), "")
+            if wrong not in values or wrong in needed:
+                break
+            del values[wrong]  # its default is right, so what else is wrong shows
+    if faults:
+        raise ContactError("\n".join(faults))
+    assert made is not None
+    return made
 
 
 def _convert(hint: Any, value: object, where: str) -> Any:

@@ -28,7 +28,7 @@ from . import reach
 from .declared import build, read_table
 from .slices import Rails
 from .torque import Torque
-from .track import Speed, Track
+from .track import FASTEST, SLOWEST, Speed, Track
 from .uneven import Wheels
 
 #: Law by which profiles wear if a scenario gives neither a law nor constants of Archard (docs/understand/wear.md, Wear laws).
@@ -151,7 +151,7 @@ class Declaration:
     ----------
     name : name of the run, for titles
     length : distance to run [m], longer than recording.settling
-    speed : a number [m/s], 1 to 150, or a `Speed`
+    speed : a number [m/s], 0.1 to 150, or a `Speed`
     seed : seed of the random irregularities, not negative
     vehicle : file of a vehicle relative to the scenario's file, or one of the included ones: `manchester`, or `wheelset`, the
         default (vehicle.md)
@@ -177,10 +177,17 @@ class Declaration:
     recording: Recording = field(default_factory=Recording)
 
     def __post_init__(self) -> None:
-        require_number("length", self.length, self.recording.settling + self.recording.spacing, 1e6)
+        least = self.recording.settling + self.recording.spacing
+        if self.length < least:
+            raise ContactError(
+                f"length = {self.length:g}: nothing would be counted. The first {self.recording.settling:g} m "
+                f"(recording.settling) let the vehicle settle, and a sample takes {self.recording.spacing:g} m "
+                f"(recording.spacing), so at least {least:g} m are needed, or a shorter settling"
+            )
+        require_number("length", self.length, maximum=1e6)
         require_number("seed", self.seed, 0)
         if isinstance(self.speed, float):
-            require_number("speed", self.speed, 1.0, 150.0)
+            require_number("speed", self.speed, SLOWEST, FASTEST)
         as_friction(self.friction)  # checks a number
 
 

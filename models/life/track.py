@@ -13,6 +13,9 @@ from contact.errors import ContactError, require_number
 from .measured import Measured
 from .spectra import CHANNELS, Irregularities
 
+#: Speeds of a run [m/s]. Below, the steps would be micrometres: explicit integration of creepage needs steps in proportion.
+SLOWEST, FASTEST = 0.1, 150.0
+
 
 @dataclass(frozen=True, kw_only=True)
 class Curve:
@@ -21,7 +24,7 @@ class Curve:
     Parameters
     ----------
     start : start of the first transition [m]
-    radius : radius of the circle [m], 100 to 100000
+    radius : radius of the circle [m], 15 to 100000
     length : length of the circle [m]
     transition : length of each transition [m], at least 1 m
     cant : height of the outer rail above the inner rail [m], 0 to 0.2
@@ -37,7 +40,7 @@ class Curve:
 
     def __post_init__(self) -> None:
         require_number("start", self.start, 0.0)
-        require_number("radius", self.radius, 100.0, 1e5)
+        require_number("radius", self.radius, 15.0, 1e5)
         require_number("length", self.length, 0.0)
         require_number("transition", self.transition, 1.0)
         require_number("cant", self.cant, 0.0, 0.2)
@@ -163,7 +166,7 @@ class Speed:
     Parameters
     ----------
     at : distances [m], increasing
-    values : speeds at these distances [m/s], 1 to 150; constant before the first and after the last
+    values : speeds at these distances [m/s], 0.1 to 150; constant before the first and after the last
     """
 
     at: tuple[float, ...]
@@ -177,7 +180,7 @@ class Speed:
         for k, place in enumerate(self.at):
             require_number(f"at[{k}]", place, self.at[k - 1] if k else -math.inf, open_minimum=k > 0)
         for k, value in enumerate(self.values):
-            require_number(f"values[{k}]", value, 1.0, 150.0)
+            require_number(f"values[{k}]", value, SLOWEST, FASTEST)
 
     def __call__(self, s: float) -> float:
         return float(np.interp(s, self.at, self.values))

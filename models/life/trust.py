@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, fields
+from dataclasses import dataclass
 
 from contact.errors import ContactError
 from contact.study.table import number
@@ -32,13 +32,27 @@ TRUST = {
 }
 
 
+#: Why wear is so fast, and the cures, by the law.
+_SHEFFIELD = (
+    "Sheffield's law does this where T-gamma over the area exceeds 77 N/mm². Cures: less friction, as on a lubricated flange, "
+    "or other constants in damage.usfd."
+)
+_FAST = {
+    "archard": "Archard's map does this where sliding is fast or pressures are high, and does not know lubrication. Cures: "
+    'damage.wear_law = "usfd", less friction, or lower coefficients of the law.',
+    "usfd": _SHEFFIELD,
+    "usfd_local": _SHEFFIELD,
+}
+_OTHERS = "Cures: less friction, or lower coefficients of the law."
+
+
 class NotTrusted(ContactError):
     """A study stops because a run is not to be trusted."""
 
 
 @dataclass(frozen=True, slots=True)
 class Trust:
-    """Measures of trust in a run. The members are explained in `TRUST`."""
+    """Measures of trust in a run. The members are explained in `TRUST`; `wear_law` is that of the run."""
 
     residual: float
     impacts: float
@@ -50,6 +64,7 @@ class Trust:
     deepest_rate: float = 0.0
     seizure: float = 0.0
     untrusted_share: float = 0.0
+    wear_law: str = ""
 
     @property
     def closes(self) -> bool:
@@ -104,9 +119,7 @@ class Trust:
         if self.deepest_rate > FASTEST_WEAR:
             said.append(
                 f"A wheel loses {1e9 * self.deepest_rate:.3g} µm in a kilometre at its deepest place, a millimetre in "
-                f"{1e-6 / self.deepest_rate:.3g} km. No wheel in service wears so fast. Archard's map does this where sliding "
-                "is fast or pressures are high, and does not know lubrication; Sheffield's law where T-gamma over the area "
-                'exceeds 77 N/mm². Cures: damage.wear_law = "usfd", less friction, or lower coefficients of the law.'
+                f"{1e-6 / self.deepest_rate:.3g} km. No wheel in service wears so fast. {_FAST.get(self.wear_law, _OTHERS)}"
             )
         return tuple(said)
 
@@ -119,7 +132,7 @@ class Trust:
 
     def as_dict(self) -> dict[str, float]:
         """Return the members by name."""
-        return {entry.name: float(getattr(self, entry.name)) for entry in fields(self)}
+        return {name: float(getattr(self, name)) for name in TRUST}
 
 
 @dataclass(frozen=True, slots=True)
@@ -161,4 +174,5 @@ def worst(runs: list[Trust]) -> Trust:
         deepest_rate=max(run.deepest_rate for run in runs),
         seizure=max(run.seizure for run in runs),
         untrusted_share=max(run.untrusted_share for run in runs),
+        wear_law=runs[0].wear_law,
     )

@@ -224,7 +224,9 @@ class Life:
     @property
     def trust(self) -> Trust:
         """Measures of trust of the runs of all steps, the worst of each."""
-        return worst([Trust(*(float(row[list(COLUMNS).index(name)]) for name in TRUST)) for row in self.rows])
+        law = self.plan.scenarios[0].declared.damage.wear_law
+        rows = [{name: float(row[list(COLUMNS).index(name)]) for name in TRUST} for row in self.rows]
+        return worst([Trust(**row, wear_law=law) for row in rows])
 
     @staticmethod
     def _row(booked: dict[str, float]) -> Array:

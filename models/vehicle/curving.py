@@ -137,7 +137,7 @@ def in_curve(
     vehicle : VehicleDeclaration
     profiles : (wheel, rail)
     radius : float
-        [m], 100 to 100000.
+        [m], 15 to 100000.
     speed, cant : float
         [m/s], height of the outer rail [m].
     friction : float or Friction

@@ -340,6 +340,7 @@ class VehicleRun:
             ),
             seizure=self._seizure,
             untrusted_share=float(books[Book.UNTRUSTED]) / max(self.steps * len(self.simulation.wheels), 1),
+            wear_law=declared.damage.wear_law,
         )
 
     @property

@@ -102,3 +102,13 @@ def test_messages_name_the_option_that_was_typed():
     assert "--back-to-back 0.01 is outside" in call("geometry", "--back-to-back", 0.01, code=2).stderr
     said = call("solve", "--speed", 300, "--yaw", 0.06, "--load", 500).stderr.splitlines()
     assert sorted(line.split(":")[2] for line in said) == [" --speed 300", " --yaw 0.06", " load = 500"]
+
+
+def test_a_decimal_comma_is_named():
+    said = call("solve", "--friction", "0,35", code=2).stderr
+    assert said == "contact: --friction 0,35: numbers have a decimal point, 0.35\n"
+    assert "-1,5e-3: numbers have a decimal point, -1.5e-3" in call("solve", "--y", "-1,5e-3", code=2).stderr
+
+
+def test_a_standing_wheelset_is_told_to_have_no_creep_forces():
+    assert "contact: warning: --speed 0: the wheelset stands" in call("solve", "--speed", 0).stderr

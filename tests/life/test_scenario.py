@@ -29,8 +29,8 @@ def written(folder: Path, text: str) -> Path:
         ("length = 100.0\nspeed = 20.0", r"case.toml.name is missing"),
         (LEAST + "sped = 3", r"case.toml.sped is unknown, did you mean 'speed'\?; allowed: name, length"),
         (LEAST.replace("20.0", '"fast"'), r"case.toml.speed = 'fast' is not a number or a table"),
-        (LEAST.replace("20.0", "0.5"), r"case.toml: speed = 0.5 is outside the allowed range \[1, 150\]"),
-        (LEAST.replace("100.0", "10.0"), r"case.toml: length = 10 is outside the allowed range \[30.25, "),
+        (LEAST.replace("20.0", "0.05"), r"case.toml: speed = 0.05 is outside the allowed range \[0.1, 150\]"),
+        (LEAST.replace("100.0", "10.0"), r"length = 10: nothing .* The first 30 m .* at least 30.25 m"),
         (LEAST + "seed = 1.5", r"case.toml.seed = 1.5 is not an integer"),
         (LEAST + "friction = -0.1", r"case.toml: friction = -0.1 is outside"),
         (
@@ -38,8 +38,8 @@ def written(folder: Path, text: str) -> Path:
             r"case.toml.friction: friction.law = 'falling' is unknown",
         ),
         (
-            LEAST + "[[track.curves]]\nstart = 0.0\nradius = 50.0\nlength = 10.0",
-            r"case.toml.track.curves\[0\]: radius = 50 is outside the allowed range \[100, 100000\]",
+            LEAST + "[[track.curves]]\nstart = 0.0\nradius = 10.0\nlength = 10.0",
+            r"case.toml.track.curves\[0\]: radius = 10 is outside the allowed range \[15, 100000\]",
         ),
         (LEAST + "[track]\ncurves = 3", r"case.toml.track.curves = 3 is not an array"),
         (
@@ -153,3 +153,25 @@ def test_profiles_of_a_scenario_take_every_option_that_the_reader_asks_for(tmp_p
     path.write_text(text.replace("wheel.txt", "wheel18.txt").format(""))
     with pytest.raises(ContactError, match=r"wheel18\.txt' is missing"):
         scenario.read(path)
+
+
+def test_all_mistakes_of_a_file_are_named_at_once(tmp_path):
+    path = tmp_path / "case.toml"
+    path.write_text(
+        'name = "s"\nlength = 10.0\nspeed = "fast"\nsped = 3\n[methods]\nstrips = 2\npace = 99\n[recording]\nspacing = 0.0\n',
+        encoding="utf-8",
+    )
+    with pytest.raises(ContactError) as found:
+        scenario.read(path)
+    said = str(found.value).splitlines()
+    for text in ("sped is unknown", "speed = 'fast' is not", "n_strips = 2", "pace = 99", "spacing = 0 is outside"):
+        assert sum(text in line for line in said) == 1, (text, said)
+    assert len(said) == 5
+
+
+def test_curves_of_trams_and_slow_runs_are_allowed(tmp_path):
+    path = tmp_path / "case.toml"
+    curve = "[[track.curves]]\nstart = 5.0\nradius = 25.0\nlength = 9.0\n"
+    path.write_text(f'name = "s"\nlength = 60.0\nspeed = 0.5\n{curve}', encoding="utf-8")
+    found = scenario.read(path)
+    assert (found.slowest, found.declared.track.curves[0].radius) == (0.5, 25.0)

@@ -35,11 +35,18 @@ def test_a_good_run_has_no_warning_and_a_bad_one_names_every_fault():
 
 
 def test_seizure_and_wear_that_no_wheel_in_service_has_are_named_with_a_cure():
-    said = replace(GOOD, seizure=0.34, deepest_rate=1.3e-7).warnings
+    said = replace(GOOD, seizure=0.34, deepest_rate=1.3e-7, wear_law="archard").warnings
     assert len(said) == 2
     for text in ("seizure at 34 %", "130 µm in a kilometre", "a millimetre in 7.69 km"):
         assert text in " ".join(said)
     assert all("Cures" in sentence and "usfd" in sentence for sentence in said)
+
+
+def test_a_law_is_not_advised_to_who_uses_it():
+    (said,) = replace(GOOD, deepest_rate=1.3e-7, wear_law="usfd").warnings
+    assert "wear_law" not in said
+    assert "Archard" not in said
+    assert "less friction" in said
 
 
 def test_a_run_with_elastic_pressures_and_archards_law_tells_its_seizure(tmp_path):

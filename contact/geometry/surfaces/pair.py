@@ -28,7 +28,7 @@ from contact.kernels.geometry.elements import fill_distance, find
 from contact.kernels.geometry.prepare import move
 from contact.kernels.geometry.section import AWAY
 from contact.kernels.geometry.settle import DEEPEST
-from contact.kernels.records import MAX_PATCHES
+from contact.kernels.records import MAX_PATCHES, SLOWEST
 from contact.material import STEEL, Material
 from contact.ownership import one_thread, within
 
@@ -121,12 +121,16 @@ class SurfacePair(Posed):
         Size (dx, dy) of the elements [m] instead of their number.
     material : Material
         Material for a search under a load.
+    reference_speed : float
+        As for `contact.geometry.wheelset.Pair` [m/s].
 
     Raises
     ------
     ContactError
         For surfaces of the wrong kind or numbers outside their range.
     """
+
+    rolls_back = False
 
     def __init__(
         self,
@@ -146,8 +150,9 @@ class SurfacePair(Posed):
         columns: int = COLUMNS,
         spacing: float | tuple[float, float] | None = None,
         material: Material = STEEL,
+        reference_speed: float = SLOWEST,
     ) -> None:
-        super().__init__(side, nominal_radius)
+        super().__init__(side, nominal_radius, reference_speed)
         if rail_origin is None:
             if not isinstance(rail, Profile):
                 raise ContactError(
@@ -178,7 +183,7 @@ class SurfacePair(Posed):
         motion.radius, motion.tape, motion.mirror = self.nominal_radius, self.tape, self._mirror
         motion.combine_distance, motion.most_patches = self.combine_distance, MAX_PATCHES
         motion.origin_y, motion.origin_z = self.rail_origin
-        motion.reach, motion.tilted = self.reach, self.tilted
+        motion.reach, motion.tilted, motion.slowest = self.reach, self.tilted, self.reference_speed
         self.space.case["G"], self.space.case["nu"] = material.shear_modulus, material.poisson_ratio
         self.patches, self.separations = self.space.patches, self.space.separations
         self._pose = Pose()  # of the last `place`, for errors

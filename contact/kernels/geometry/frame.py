@@ -42,11 +42,18 @@ def _motion_at(motion: Record, x: float, y: float, z: float) -> tuple[float, flo
 
 
 @kernel
+def reference_speed(motion: Record) -> float:
+    """Return the speed to which creepages refer [m/s]: the forward speed, not below `motion.slowest`."""
+    slowest = motion.slowest if motion.slowest > 0.0 else SLOWEST
+    return max(abs(motion.vx), slowest)
+
+
+@kernel
 def creepages(motion: Record, frame: Frame, x: float, y: float, z: float, patch: Record) -> None:
-    """Fill the creepages of `patch` at the wheel's point (x, y, z): its velocity in the rail over V, at least `SLOWEST`."""
+    """Fill the creepages of `patch` at the wheel's point (x, y, z): its velocity in the rail over `reference_speed`."""
     vx, vy, vz, _, wy, wz = _motion_at(motion, x, y, z)
     c, s = frame[2], frame[3]
-    speed = max(motion.vx, SLOWEST)
+    speed = reference_speed(motion)
     patch.vx = vx / speed
     patch.vy = (vy * c + vz * s) / speed
     patch.phi = (wz * c - wy * s) / speed  # the rail's roll rate is about x, across the normal
@@ -56,7 +63,7 @@ def creepages(motion: Record, frame: Frame, x: float, y: float, z: float, patch:
 def slip(motion: Record, axes: Axes, x: float, y: float, z: float, patch: Record) -> None:
     """Fill the creepages as `creepages`, in a frame with any axes x, y and z."""
     vx, vy, vz, wx, wy, wz = _motion_at(motion, x, y, z)
-    speed = max(motion.vx, SLOWEST)
+    speed = reference_speed(motion)
     patch.vx = (vx * axes[0] + vy * axes[1] + vz * axes[2]) / speed
     patch.vy = (vx * axes[3] + vy * axes[4] + vz * axes[5]) / speed
     patch.phi = ((wx - motion.rail_roll_rate) * axes[6] + wy * axes[7] + wz * axes[8]) / speed
