@@ -29,7 +29,8 @@ from .wear import Life
 from .wear_log import WearLog, time_left
 
 _SHOWN = 0.2  # between two changes of the progress bar [s]
-_TOLD = 10.0  # between two lines of a log, where there is no bar [s]
+_TOLD = 10.0  # between two lines on the terminal, where there is no bar [s]
+_LOGGED = 60.0  # between two lines of progress.log [s]
 
 Declared = Annotated[Path, typer.Argument(help="TOML file.", show_default=False)]
 Out = Annotated[Path | None, typer.Option(help="Folder for the results; default out/ and the file's name.")]
@@ -78,7 +79,7 @@ def _places(out: Path) -> tuple[Path, Path | None]:
 
 
 def complete(started: VehicleRun, path: Path, fresh: bool, every: float) -> None:
-    """Complete a run, from its checkpoint if there is one, with a progress bar.
+    """Complete a run, from its checkpoint if there is one, with a progress bar, and a line a minute in progress.log beside it.
 
     Checkpoints are written to `path` every `every` seconds. `fresh` ignores an existing checkpoint.
     """
@@ -88,7 +89,7 @@ def complete(started: VehicleRun, path: Path, fresh: bool, every: float) -> None
         started.restore(saved)
         typer.echo(f"continues at {started.distance:.1f} m from {path}", err=True)
     begun, at_first = time.monotonic(), started.share
-    written = shown = told = begun
+    written = shown = told = logged = begun
     with progress_bar() as bar, interrupts() as asked:
         try:
             while not (started.done or asked()):
@@ -97,13 +98,17 @@ def complete(started: VehicleRun, path: Path, fresh: bool, every: float) -> None
                 if now - shown >= _SHOWN:
                     bar(started.share, f"{started.distance:.0f} m of {started.scenario.name}")
                     shown = now
-                if now - told >= _TOLD and not sys.stderr.isatty():
+                tells = now - told >= _TOLD and not sys.stderr.isatty()
+                if tells or now - logged >= _LOGGED:
                     done = started.share - at_first
                     left = (now - begun) * (1.0 - started.share) / done if done > 0.0 else math.inf
-                    typer.echo(
-                        f"{started.distance:.0f} m of {started.scenario.declared.length:g} m{time_left(left)}", err=True
-                    )
-                    told = now
+                    line = f"{started.distance:.0f} m of {started.scenario.declared.length:g} m{time_left(left)}"
+                    if tells:
+                        typer.echo(line, err=True)
+                        told = now
+                    if now - logged >= _LOGGED:
+                        log(path.parent, line)
+                        logged = now
                 if now - written >= every:
                     checkpoint.write(path, fingerprint, started.save())
                     written = time.monotonic()
@@ -112,6 +117,13 @@ def complete(started: VehicleRun, path: Path, fresh: bool, every: float) -> None
         if not started.done:
             checkpoint.write(path, fingerprint, started.save())
             stop(f"interrupted at {started.distance:.1f} m; the same command continues from {path}", INTERRUPTED)
+
+
+def log(folder: Path, line: str) -> None:
+    """Add a line with the time to progress.log in a folder."""
+    folder.mkdir(parents=True, exist_ok=True)
+    with (folder / "progress.log").open("a", encoding="utf-8") as file:
+        file.write(f"{time.strftime('%Y-%m-%d %H:%M:%S')}  {line}\n")
 
 
 @contextmanager

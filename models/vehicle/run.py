@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import replace
 from functools import cached_property
 from typing import Any
@@ -20,6 +20,7 @@ from . import linear
 from .course import SPACING, lay
 from .declared import VehicleDeclaration
 from .hunting import Hunting, fall
+from .kept import kept
 from .kernels.layout import Axis, Book, Sum, TrackFrame, TrackRow
 from .ledgers import BODIES, fill, ledger
 from .notebook import of_run
@@ -356,29 +357,42 @@ class VehicleRun:
     @cached_property
     def critical_speed(self) -> float:
         """Linear critical speed on straight track [m/s]; inf above 150 m/s."""
-        return linear.critical_speed(self._on_straight, tolerance=2.0)
+        return float(self._kept("linear", (), lambda: linear.critical_speed(self._on_straight, tolerance=2.0)))
+
+    def _kept(self, what: str, more: tuple[Any, ...], compute: Callable[[], Any]) -> Any:
+        """Return what depends on the vehicle, its profiles, friction and methods, and on `more`: computed once (`kept`)."""
+        scenario = self.scenario
+        given = (scenario.vehicle, scenario.friction, self._options, *more)
+        return kept(what, given, (*scenario.wheels, *scenario.rails, scenario.wheel, scenario.rail), compute)
 
     @cached_property
     def limit_cycle(self) -> Hunting | None:
         """The fall from above the linear critical speed to `SLOWEST_CYCLE` of it, on the scenario's wheel and rail.
 
-        None if a wheel leaves its rail. It is computed when it is first asked for, and takes some seconds.
+        None if a wheel leaves its rail. It takes some seconds, once for a vehicle with its profiles, methods and step.
         """
         scenario = self.scenario
         fastest = min(_ABOVE_CRITICAL * self.critical_speed, FASTEST_CYCLE)
         slowest = max(SLOWEST_CYCLE * fastest, 2.0)
-        try:
-            return fall(
-                scenario.vehicle,
-                (scenario.wheel, scenario.rail),
-                (slowest, fastest),
-                deceleration=DECELERATION,
-                friction=scenario.friction,
-                options=self._options,
-                step=self.step * min(slowest / scenario.slowest, 1.0),
-            )
-        except ContactError:
-            return None
+        step = self.step * min(slowest / scenario.slowest, 1.0)
+
+        def fallen() -> list[Any] | None:
+            try:
+                found = fall(
+                    scenario.vehicle,
+                    (scenario.wheel, scenario.rail),
+                    (slowest, fastest),
+                    deceleration=DECELERATION,
+                    friction=scenario.friction,
+                    options=self._options,
+                    step=step,
+                )
+            except ContactError:
+                return None
+            return [found.speed.tolist(), found.amplitude.tolist(), found.critical]
+
+        found = self._kept("nonlinear", (slowest, fastest, step), fallen)
+        return None if found is None else Hunting(np.array(found[0]), np.array(found[1]), float(found[2]))
 
     @cached_property
     def conicities(self) -> tuple[float, ...]:

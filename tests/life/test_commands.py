@@ -118,3 +118,12 @@ def test_the_time_series_goes_to_a_file_that_other_programs_read(call, tmp_path,
     else:
         found = xarray.open_dataset(path, engine="scipy")["wheelset_right_vertical_force"].values
     assert found == pytest.approx(wanted, rel=1e-12)
+
+
+def test_progress_is_also_a_line_a_minute_in_a_file(call, tmp_path, monkeypatch):
+    monkeypatch.setattr(report, "page_of", lambda run: "")
+    monkeypatch.setattr(commands, "_LOGGED", 0.0)
+    assert call("out").exit_code == 0
+    lines = (tmp_path / "out" / "progress.log").read_text(encoding="utf-8").splitlines()
+    assert len(lines) > 3
+    assert " m of 3 m" in lines[0]
