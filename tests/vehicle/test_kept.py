@@ -5,9 +5,9 @@ import math
 import pytest
 
 from contact.geometry import profile
+from models.life import scenario
 from models.vehicle import hunting, kept, run
 from models.vehicle.run import VehicleRun
-from tests.vehicle.test_run import scenario
 
 PROFILES = (profile.s1002(), profile.rail_60e1())
 
@@ -56,8 +56,11 @@ def test_only_the_latest_files_stay(folder, monkeypatch):
 
 
 @pytest.mark.usefixtures("folder")
-def test_a_second_run_of_a_vehicle_reads_both_critical_speeds(monkeypatch):
+def test_a_second_run_of_a_vehicle_reads_both_critical_speeds(tmp_path, monkeypatch):
     calls = []
+    file = tmp_path / "s.toml"
+    methods = '[methods]\nnormal = "analyn"\ntangential = "fastrip"'
+    file.write_text(f'name = "s"\nlength = 40.0\nspeed = 20.0\n{methods}\n', encoding="utf-8")
 
     def fallen(*args, **kwargs):
         calls.append(kwargs["step"])
@@ -65,7 +68,7 @@ def test_a_second_run_of_a_vehicle_reads_both_critical_speeds(monkeypatch):
 
     monkeypatch.setattr(run, "fall", fallen)
     monkeypatch.setattr(run.linear, "critical_speed", lambda *a, **k: calls.append("linear") or 24.2)
-    found = [VehicleRun(scenario()) for _ in range(2)]
+    found = [VehicleRun(scenario.read(file)) for _ in range(2)]
     for one in found:
         assert (one.critical_speed, one.limit_cycle.critical) == (24.2, 25.3)
         assert one.limit_cycle.speed.tolist() == [30.0, 20.1]
