@@ -170,9 +170,8 @@ def in_curve(
     for _ in range(_MOST):
         if np.abs(left_over).max() < _TOLERANCE * weight:
             inner, outer = both
-            doubt_gap(
-                max(inner.gap_error, outer.gap_error), lookup("normal", options.get("normal", DEFAULT_NORMAL)).gap_limit
-            )
+            limit = lookup("normal", options.get("normal", DEFAULT_NORMAL)).gap_limit
+            doubt_gap(max(inner.gap_error, outer.gap_error), limit, set())
             return Curving(
                 y=float(x[0]),
                 yaw=float(x[1]),
