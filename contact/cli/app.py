@@ -25,6 +25,7 @@ from contact.cli.document import flat, in_effect
 from contact.cli.geometry import conicity, list_profiles
 from contact.cli.geometry import geometry as points
 from contact.cli.in_time import in_time
+from contact.cli.inp import inp
 from contact.cli.lut import lut
 from contact.cli.manchester import manchester
 from contact.cli.output import deliver, drawing, prepare, reported
@@ -213,6 +214,7 @@ app.command()(stress)
 app.command()(transient)
 app.command("rail")(elastic_rail)
 app.command()(in_time)
+app.command()(inp)
 app.command()(roller)
 app.command()(curving)
 app.command()(lut)

@@ -28,7 +28,7 @@ class FastSingle:
 
     def solve(self, case: Case) -> Result:
         """Return the result of a case."""
-        require_supported(case)
+        require_supported(case, fast=True)
         digits, bodies = case.digits, material(case)
         if digits["T"] in (1, 2) or bodies.coupling != 0.0 or layer(case) is not None:
             raise refuse(case, "strips", "a step, unlike bodies or a third body")

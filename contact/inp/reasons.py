@@ -8,11 +8,10 @@ from contact.inp.case import Case
 #: What a case needs and this package does not have.
 REASONS: dict[str, str] = {
     "viscoelastic": "M = 1: viscoelastic bodies",
-    "simplified theory": "M = 2, 5, 6, 7: variants of FASTSIM and FaStrip on the grid",
-    "simplified bodies": "M = 3 without given or Hertz' pressure",
+    "simplified theory": "M = 2, 5, 6, 7, or M = 3 beyond plain FASTSIM: variants of FASTSIM and FaStrip on the grid",
+    "simplified bodies": "M = 3 without the pressure of a Hertz contact",
     "thin sheet": "B = 1: a thin sheet on the half space",
-    "parabolic pressure": "B = 3 with the elastic half space",
-    "line pressure": "B = 2, 3, 4, 5, 6 of module 3 beyond an ellipse or with M other than 0 or 3",
+    "given pressure": "B = 2 to 6 of module 3, but for B = 2, 3 with M = 3",
     "fast pressure": "B = 5, 6 of module 1 with friction on the grid",
     "bilinear": "C = 3: elements of bilinear traction",
     "angle": "C = 4: influence numbers with the angle of the surface",
@@ -43,6 +42,37 @@ REASONS: dict[str, str] = {
     "input": "the library refuses the numbers of the case",
 }
 
+#: Digits that are refused wherever they occur, by module, letter and value. C, D and L are those in force.
+REFUSED: dict[int, dict[str, dict[int, str]]] = {
+    3: {
+        "B": {1: "thin sheet", 4: "given pressure", 5: "given pressure", 6: "given pressure"},
+        "M": {1: "viscoelastic", 2: "simplified theory"} | dict.fromkeys((5, 6, 7), "simplified theory"),
+        "C3": {3: "bilinear", 4: "angle", 9: "numbers from a file"},
+        "L": {6: "temperature"},
+        "E": dict.fromkeys((2, 3, 9), "rigid slip of each element"),
+    },
+    1: {
+        "C1": {4: "roller", 5: "roller"},
+        "B": {1: "thin sheet"},
+        "T": {1: "pair in time", 2: "pair in time"},
+        "F": {1: "force on the wheel", 3: "elastic rail"},
+        "M": {1: "viscoelastic"},
+        "C3": {3: "bilinear", 4: "angle"},
+        "D": {3: "true slip", 4: "curved pair"},
+        "L": {6: "temperature"},
+        "E": {4: "flexible wheel", 5: "flexible wheel"},
+    },
+}
+#: The same for the half space only: with `fast` strips take their place.
+REFUSED_ON_GRID: dict[int, dict[str, dict[int, str]]] = {
+    3: {},
+    1: {
+        "B": {5: "fast pressure", 6: "fast pressure"},
+        "M": {3: "simplified bodies"} | dict.fromkeys((2, 5, 6, 7), "simplified theory"),
+    },
+}
+_IN_FORCE = {"C3": "INFLUENCE", "L": "LAW", "D": "SEARCH"}
+
 
 class RefusedError(ContactError):
     """A case cannot run; `reason` is a key of `REASONS`."""
@@ -54,4 +84,15 @@ class RefusedError(ContactError):
 
 def refuse(case: Case, reason: str, more: str = "") -> RefusedError:
     """Return the error that refuses a case."""
-    return RefusedError(reason, f"{case.place}: {REASONS[reason]}{': ' if more else ''}{more} is not solved here")
+    return RefusedError(reason, f"{case.place}: {more or reason} is not solved here ({REASONS[reason]})")
+
+
+def require_digits(case: Case, fast: bool) -> None:
+    """Raise a `RefusedError` for a digit that is refused wherever it occurs."""
+    for table in (REFUSED,) if fast else (REFUSED, REFUSED_ON_GRID):
+        for letter, values in table[case.module].items():
+            value = case.digits[letter]
+            if letter in _IN_FORCE:
+                value = case.get(_IN_FORCE[letter], value)
+            if value in values:
+                raise refuse(case, values[value], f"{letter.rstrip('3')} = {value}")

@@ -6,13 +6,14 @@ import time
 import warnings
 from collections.abc import Callable, Iterable, Sequence
 from concurrent.futures import ProcessPoolExecutor
+from functools import partial
 from typing import Any
 
 from contact.errors import ContactError, ModelWarning, PlausibilityWarning
 from contact.inp.case import Case
 from contact.inp.reasons import REASONS, RefusedError
 from contact.inp.results import Result
-from contact.inp.single import MEMORY, Single
+from contact.inp.single import MEMORY, Single, require_supported
 
 Progress = Callable[[int, int], None]
 
@@ -23,6 +24,7 @@ def solve(
     fast: bool = False,
     workers: int = 1,
     memory: float = MEMORY,
+    fields: bool = False,
     progress: Progress | None = None,
 ) -> list[Result]:
     """Solve cases, by default as the file asks for: by the half space, on the grid and in the order of the file.
@@ -37,6 +39,8 @@ def solve(
         Number of processes, for cases that do not continue each other.
     memory : float
         Most memory of a case [bytes].
+    fields : bool
+        Keep the fields of the elements, for `write_elements`; of single contacts by the half space.
     progress : callable
         Called with the numbers of cases that are done and of all.
 
@@ -46,12 +50,11 @@ def solve(
         In the order of the cases. A case that cannot run has the status "refused", a named reason and a message.
     """
     chains, results, done = chains_of(cases), {}, 0
+    run = partial(_run, fast=fast, memory=memory, fields=fields)
     if workers > 1 and len(chains) > 1:
         with ProcessPoolExecutor(workers) as pool:
             parts = _parts(chains, 4 * workers)
-            for part, found in zip(
-                parts, pool.map(_run, parts, [fast] * len(parts), [memory] * len(parts)), strict=True
-            ):
+            for part, found in zip(parts, pool.map(run, parts), strict=True):
                 for (k, _), result in zip(part, found, strict=True):
                     results[k] = result
                 done += len(part)
@@ -59,7 +62,7 @@ def solve(
                     progress(done, len(cases))
     else:
         for chain in chains:
-            for (k, _), result in zip(chain, _run(chain, fast, memory), strict=True):
+            for (k, _), result in zip(chain, run(chain), strict=True):
                 results[k] = result
                 done += 1
                 if progress is not None:
@@ -83,6 +86,22 @@ def chains_of(cases: Sequence[Case]) -> list[Chain]:
     return chains
 
 
+def refusals(cases: Sequence[Case], fast: bool = False) -> dict[str, list[str]]:
+    """Return the messages of the cases that cannot run, by reason, as far as their digits and numbers tell."""
+    found: dict[str, list[str]] = {}
+    for case in cases:
+        try:
+            if case.module == 1:
+                from contact.inp.pair import require_supported as require_pair
+
+                require_pair(case, fast)
+            else:
+                require_supported(case, fast)
+        except RefusedError as error:
+            found.setdefault(error.reason, []).append(str(error))
+    return found
+
+
 def _parts(chains: Iterable[Chain], count: int) -> list[Chain]:
     """Return the chains joined to about `count` parts."""
     parts: list[Chain] = [[] for _ in range(count)]
@@ -91,7 +110,7 @@ def _parts(chains: Iterable[Chain], count: int) -> list[Chain]:
     return [part for part in parts if part]
 
 
-def _run(chain: Chain, fast: bool, memory: float) -> list[Result]:
+def _run(chain: Chain, fast: bool, memory: float, fields: bool) -> list[Result]:
     """Return the results of a chain, or of several."""
     runners: dict[tuple[int, int, int], Any] = {}
     broken: set[tuple[int, int, int]] = set()
@@ -99,7 +118,7 @@ def _run(chain: Chain, fast: bool, memory: float) -> list[Result]:
     for _, case in chain:
         start = time.perf_counter()
         if case.memory not in runners or not case.continues:
-            runners[case.memory] = _runner(case, fast, memory)
+            runners[case.memory] = _runner(case, fast, memory, fields)
             broken.discard(case.memory)
         result = _one(case, runners[case.memory], case.memory in broken)
         if result.refused:
@@ -108,7 +127,7 @@ def _run(chain: Chain, fast: bool, memory: float) -> list[Result]:
     return found
 
 
-def _runner(case: Case, fast: bool, memory: float) -> Any:
+def _runner(case: Case, fast: bool, memory: float, fields: bool) -> Any:
     if case.module == 1:
         from contact.inp.pair import PairRunner
 
@@ -117,7 +136,7 @@ def _runner(case: Case, fast: bool, memory: float) -> Any:
         from contact.inp.fast import FastSingle
 
         return FastSingle()
-    return Single(memory)
+    return Single(memory, fields)
 
 
 def _one(case: Case, runner: Any, broken: bool) -> Result:

@@ -8,14 +8,16 @@ from typing import Any
 
 import numpy as np
 
+from contact.arrays import Array
 from contact.creepage import Creepage
 from contact.damage.temperature import flash_temperature
 from contact.halfspace import GridSolution, LocalLaw, Transient, norm
 from contact.halfspace.influence import Influence
 from contact.halfspace.third_body import ThirdBody
+from contact.inp import simplified
 from contact.inp.case import Case
 from contact.inp.grid import Bed, bed, direction, material
-from contact.inp.reasons import refuse
+from contact.inp.reasons import refuse, require_digits
 from contact.inp.results import PatchResult, Result
 from contact.material import Material, Thermal
 from contact.solution import Status
@@ -26,22 +28,13 @@ _BYTES_PER_ELEMENT = 4200
 MEMORY = 4e9
 
 
-def require_supported(case: Case) -> None:
+def require_supported(case: Case, fast: bool = False) -> None:
     """Raise a `RefusedError` for what cannot run."""
+    require_digits(case, fast)
     digits = case.digits
     for reason, wrong, what in (
-        ("viscoelastic", digits["M"] == 1, "M = 1"),
-        ("simplified theory", digits["M"] in (2, 5, 6, 7), f"M = {digits['M']}"),
-        ("thin sheet", digits["B"] == 1, "B = 1"),
-        ("parabolic pressure", digits["B"] == 3 and digits["M"] != 3, "B = 3"),
-        ("line pressure", digits["B"] in (4, 5, 6), f"B = {digits['B']}"),
-        ("simplified bodies", digits["M"] == 3, "M = 3"),
-        ("line pressure", digits["B"] == 2, "B = 2"),
-        ("bilinear", case["INFLUENCE"] == 3, "C = 3"),
-        ("angle", case["INFLUENCE"] == 4, "C = 4"),
-        ("numbers from a file", case["INFLUENCE"] == 9, "C = 9"),
-        ("rigid slip of each element", digits["E"] != 0, f"E = {digits['E']}"),
-        ("temperature", case["LAW"] == 6, "L = 6"),
+        ("given pressure", digits["B"] in (2, 3) and digits["M"] != 3, f"B = {digits['B']} with M = {digits['M']}"),
+        ("simplified bodies", digits["M"] == 3 and digits["B"] not in (2, 3) and not fast, f"B = {digits['B']}"),
         ("damping", digits["M2"] == 2 and any(case[name] for name in ("CDAMPN", "CDAMPT")), "M2 = 2"),
         ("direction", digits["T"] in (2, 3) and abs(case["FACPHI"] - 1.0 / 6.0) > 1e-9, "FACPHI"),
         (
@@ -99,8 +92,8 @@ def layer(case: Case) -> ThirdBody | None:
 class Single:
     """Runs the cases of one contact in order, with what they leave behind."""
 
-    def __init__(self, memory: float = MEMORY) -> None:
-        self._memory = memory
+    def __init__(self, memory: float = MEMORY, fields: bool = False) -> None:
+        self._memory, self._fields = memory, fields
         self._contact: Transient | None = None
         self._before: Any = None
         self._key: Any = None
@@ -118,9 +111,12 @@ class Single:
             )
         bodies = material(case)
         ground, backwards = bed(case, bodies), direction(case)
+        if case.digits["M"] == 3:
+            self._contact = None
+            return simplified.solve(case, ground, bodies, backwards)
         contact = self._prepared(case, ground, bodies, backwards)
         solution = self._step(case, contact, ground, bodies, backwards)
-        return _result(case, contact, ground, solution, -1.0 if backwards else 1.0)
+        return _result(case, contact, ground, solution, -1.0 if backwards else 1.0, self._fields)
 
     def _prepared(self, case: Case, ground: Bed, bodies: Material, backwards: bool) -> Transient:
         """Return the contact with the state of the last case, or a fresh one."""
@@ -189,7 +185,7 @@ class Single:
         return scale * case["FXREL"], (scale * case["FYREL"] if case.digits["F"] == 2 else None)
 
 
-def _result(case: Case, contact: Transient, ground: Bed, solution: GridSolution, sign: float) -> Result:
+def _result(case: Case, contact: Transient, ground: Bed, solution: GridSolution, sign: float, fields: bool) -> Result:
     """Return the result in CONTACT's signs; `sign` is -1 if the contact was turned."""
     s, digits = solution, case.digits
     inside = s.p > 0.0
@@ -219,8 +215,34 @@ def _result(case: Case, contact: Transient, ground: Bed, solution: GridSolution,
     status = s.status
     if status is Status.OUT_OF_RANGE:  # the ring around the grid never touches
         status = Status.OK
-    patch = PatchResult(values, replace(s, status=status))
+    patch = PatchResult(values, replace(s, status=status), _fields(case, contact, ground, s, sign) if fields else {})
     return Result(case, (patch,) if inside.any() else (), {}, status.name.lower().replace("_", " "))
+
+
+def _fields(case: Case, contact: Transient, ground: Bed, s: GridSolution, sign: float) -> dict[str, Any]:
+    """Return the fields of the file's grid, with CONTACT's signs and axes."""
+    axis = slice(None, None, int(sign))
+
+    def inner(field: Array) -> Array:
+        return field[1:-1, 1:-1][axis, axis]
+
+    x, y = contact.grid
+    whole = np.zeros((4, *contact.pressure.shape))
+    if s.p.size:
+        rows = np.searchsorted(y, s.y[:, 0] - 0.5 * ground.dy)
+        columns = np.searchsorted(x, s.x[0] - 0.5 * ground.dx)
+        box = np.ix_(rows, columns)
+        whole[0][box], whole[1][box], whole[2][box] = np.hypot(s.sx, s.sy), s.stick, s.p > 0.0
+        whole[3][box] = 0.0 if s.layer is None else s.layer.plastic
+    slip, stick, inside, plastic = (inner(field) for field in whole)
+    state = np.where(inside > 0, np.where(plastic > 0, 3, np.where(stick > 0, 1, 2)), 0)
+    un = Influence(contact.pressure.shape, ground.dx, ground.dy, contact.material).normal(contact.pressure)
+    (ux, uy), (qx, qy), kept = contact.displacement, contact.traction, contact.state
+    found = {"x": ground.x, "y": ground.y, "h": ground.h, "mu": inner(kept.mu), "p": inner(contact.pressure)}
+    found |= {"px": -sign * inner(qx), "py": -sign * inner(qy), "un": inner(un), "slip": slip, "state": state}
+    found |= {"ux": -sign * inner(ux), "uy": -sign * inner(uy), "tau": inner(kept.tau)}
+    shear = -sign * kept.shear
+    return found | {"shear_x": inner(shear[0]), "shear_y": inner(shear[1])}
 
 
 def _work(solution: GridSolution) -> float:

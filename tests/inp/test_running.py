@@ -7,28 +7,10 @@ import contact
 from contact import inp
 from contact.geometry import profile
 from contact.inp.reasons import REASONS
+from tests import damaged
 from tests.inp import files
+from tests.inp.data import CARTER, HEAD, PRINTED
 
-HEAD = """ 3 MODULE
- {word}
- {second}
- {third}
-   999 100 30 {maxout} 1e-6
-"""
-#: 2-D Carter/Fromm problem: one row of elements (CONTACT 25.1, carter2d).
-CARTER = (
-    HEAD.format(word="203100", second="022020", third="0001341", maxout=1)
-    + """ 35780. -0.00024 0. 0.
- 0.3 0.3
- 0. 0.0401 30000.
- 0.28 0.28 82000. 82000.
- 3
- 55 1 -1.05 0. 0.04 200.
- 1 1
- 0.001 0 0 0 0 0
- 0 MODULE
-"""
-)
 #: Unlike bodies in free rolling, towards -x; first with given creepage and one turn (CONTACT 25.1, bentall cases 1 and 5).
 BENTALL = (
     HEAD.format(word="203100", second="022020", third="0001341", maxout=1)
@@ -122,7 +104,7 @@ def test_cases_on_several_processes_are_those_of_one(tmp_path):
     ("old", "new", "reason"),
     [
         ("  022020     L-D-C-M-Z-E", "  023020", "bilinear"),
-        ("  203100     P", "  253100     P", "line pressure"),
+        ("  203100     P", "  253100     P", "given pressure"),
         ("   0.0     0.5   30d3 ", "   45d   0.5   30d3 ", "direction"),
         ("  20 12 ", "  1900 1900 ", "memory"),
         ("   1  1\n", "   1  1\n", ""),
@@ -143,6 +125,74 @@ def test_cases_that_continue_a_refused_case_are_refused(tmp_path):
     text = files.CONTACT.replace("  022020     L-D-C-M-Z-E", "  023020", 1)
     text = text.replace("  203100\n  100000", "  001100\n  100000")
     assert [result.refused for result in run(tmp_path, text)] == ["bilinear", "follows a refused case"]
+
+
+def test_damaged_files_end_in_a_result_or_one_line(tmp_path):
+    path, told = tmp_path / "case.inp", 0
+    for copy in damaged.of_text(files.CONTACT.encode(), 20):
+        path.write_bytes(copy)
+        try:
+            results = inp.solve(inp.read(path), memory=1e7)
+        except contact.ContactError as error:
+            told += "\n" not in str(error)
+            continue
+        for result in results:
+            assert result.refused in REASONS or (result.refused == "" and result.message == "")
+            assert "\n" not in result.message
+            for patch in result.patches:
+                assert all(np.isfinite(value) for value in patch.values.values())
+    assert told > 5
+
+
+def test_differences_are_those_from_the_printed_numbers_worst_first(tmp_path):
+    results, out = run(tmp_path, CARTER), tmp_path / "case.out"
+    out.write_text(PRINTED.format(approach="6.492E-03"))
+    differences = inp.compare(results, inp.read_printed(out))
+    assert [one.error for one in differences] == sorted((one.error for one in differences), reverse=True)
+    assert differences[0].error < 2e-4
+    assert inp.worst_of(differences) == {1: differences[0].error}
+    out.write_text(PRINTED.format(approach="6.592E-03"))
+    worst = inp.compare(results, inp.read_printed(out))[0]
+    assert (worst.name, worst.case, worst.patch) == ("APPROACH", 1, 1)
+    assert worst.error == pytest.approx(0.0152, abs=1e-4)
+    out.write_text(PRINTED.format(approach="6.492E-03").replace("Case     1", "Case     7"))
+    with pytest.raises(contact.ContactError, match="no case is in the printed results"):
+        inp.compare(results, inp.read_printed(out))
+
+
+def test_files_of_elements_have_a_row_for_each_element_in_contact(tmp_path):
+    results = run(tmp_path, files.CONTACT, fields=True)
+    first, second = inp.write_elements(results, tmp_path)
+    assert (first.name, second.name) == ("case.0001.mat", "case.0002.mat")
+    lines = [line for line in first.read_text().splitlines() if not line.startswith("%")]
+    head, rows = lines[:6], np.array([[float(word) for word in line.split()] for line in lines[6:]])
+    assert [len(line.split()) for line in head] == [11] * 6
+    values = results[0].patches[0].values
+    assert rows.shape == (int(values["NCON"]), 11)
+    assert (rows[:, 1] == 1).sum() == values["NADH"]
+    assert rows[:, 4].sum() * 0.8 * 0.8 == pytest.approx(values["FN"], rel=1e-6)
+    assert rows[:, 5].sum() * 0.8 * 0.8 == pytest.approx(values["FX"], rel=1e-5)
+    mu = rows[:, 3]
+    assert (np.hypot(rows[:, 5], rows[:, 6]) <= mu * rows[:, 4] * (1 + 1e-6)).all()
+    with pytest.raises(contact.ContactError, match="is not a folder"):
+        inp.write_elements(results, tmp_path / "none")
+
+
+def test_fastsim_has_kalkers_slope_and_saturates(tmp_path):
+    """CONTACT 25.1, tractcurv.ref_out cases 61, 70, 75: FX -250.9, -34910, -35210 N."""
+    text = HEAD.format(word="233100", second="022320", third="0001341", maxout=1)
+    text += """ 106700. {} 0. 0.
+ 0.33 0.33
+ 0. 0.5 10000.
+ 0.28 0.28 82000. 82000.
+ 1. 1. 1.
+ -2
+ 48 44 0.0008 0.5 1.1
+ 0 MODULE
+"""
+    for creepage, force in ((1e-5, -250.9), (0.0036, -34910.0), (0.0056, -35210.0)):
+        (result,) = run(tmp_path, text.format(creepage))
+        assert result.patches[0].values["FX"] == pytest.approx(force, rel=3e-4)
 
 
 def columns(one):
