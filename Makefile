@@ -7,7 +7,7 @@ READY_FOR_DEMO := $(VENV)/.ready-for-demo
 READY_FOR_DOCS := $(VENV)/.ready-for-docs
 
 .DEFAULT_GOAL := help
-.PHONY: help demo docs explorer test check coverage soak bounds traps wheels lint fmu accuracy proof bench coupling smoothness pictures format clean
+.PHONY: help demo docs explorer test check coverage soak bounds traps wheels lint fmu accuracy proof bank bench coupling smoothness pictures format clean
 
 help:            ## list the targets
 	@grep -hE '^[a-z]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:[^#]*##/\t/' | expand -t 12
@@ -78,6 +78,9 @@ accuracy: $(READY) ## write the accuracy tables, with CONTACT's own methods for 
 
 proof: $(READY)   ## write published cases beside ours to docs/check/proof.md
 	PYTHONPATH=. $(BIN)/python -m benchmarks.proof
+
+bank: $(READY)    ## run a folder of CONTACT's input files, BANK=folder, and write the tables of docs/use/from_contact.md
+	PYTHONPATH=. $(BIN)/python benchmarks/contact_bank.py $(BANK) --write docs/use/from_contact.md
 
 smoothness: $(READY) ## write jumps, noise and resolution of sweeps to docs/check/smoothness.md; try random cases
 	PYTHONPATH=. $(BIN)/python benchmarks/smoothness.py --write docs/check/smoothness.md

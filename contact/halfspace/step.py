@@ -33,7 +33,9 @@ from contact.material import Material
 #: Residual of a step.
 _TOLERANCE = 1e-7
 #: Turns: their largest number, and the change of coefficient, yield stress or pressure over its scale at which they end.
-_MOST_TURNS, _TURN_TOLERANCE = 60, 1e-6
+_MOST_TURNS, _MOST_FALLS, _TURN_TOLERANCE, _FALL_TOLERANCE = 60, 200, 1e-6, 1e-5
+#: Least share of a change of friction.
+_LEAST_FALL = 0.02
 
 
 class Outcome(NamedTuple):
@@ -95,12 +97,14 @@ class Stepper:
         factor: Array | float,
         mu: float | None,
         force: tuple[float | None, float | None],
+        sliding: bool = False,
     ) -> Outcome:
         """Return the outcome of a step.
 
         `distance` [m] is 0 for a shift and infinite for steady rolling. `press` returns the normal solution for an opening of
         the gap by traction [m], from a pressure. `factor` is that of each row on the friction. `mu` is the coefficient of
         friction, None for that of each element. `force` are given forces on the wheel [N], None where `motion` is given.
+        With `sliding` the search for friction that falls starts from fast sliding.
         """
         steady, before = math.isinf(distance), self._moved(state, distance)
         normal = press(None, None)
@@ -108,12 +112,14 @@ class Stepper:
         local = mu is None and not self.law.constant
         if local and not steady and self.law.memory_distance > 0.0:
             field = before.mu.copy()
+        elif local and sliding:
+            field = self.law.at(np.full(self.shape, 1e9))
         tau = before.tau if self.layer is not None and not steady else self.fresh().tau
         plastic = self.layer is not None and self.layer.yield_stress < math.inf
         q, u, share, last, p = state.traction, np.zeros(2), 1.0, math.inf, normal.p
         converged, velocity = False, self.speed if distance > 0.0 else 1.0
-        tau_before, shear = tau, before.shear
-        for turn in range(_MOST_TURNS):
+        tau_before, shear, fall, before_it = tau, before.shear, 0.5, field
+        for turn in range(_MOST_FALLS if local else _MOST_TURNS):
             limit = np.minimum(field * factor, 1e300) * p
             found, u = self._tangential(q, state, p, motion, distance, np.minimum(limit, tau), force, u)
             q = np.stack((found.qx, found.qy))
@@ -141,13 +147,16 @@ class Stepper:
             if self.coupling is not None and turn + 1 < self._turns:
                 pressed = press(self.coupling.opening(*q), p)
                 change = max(change, float(np.abs(pressed.p - p).max() / max(float(p.max()), 1e-300)))
-            if change <= _TURN_TOLERANCE:
+            if change <= (_FALL_TOLERANCE if local else _TURN_TOLERANCE):
                 converged = True
                 break
+            if local:
+                # falling friction drives itself on to a stable slip, so only a change that turns back is halved
+                turned = turn > 0 and float((difference * before_it).sum()) < 0.0
+                fall = max(0.7 * fall if turned else min(1.1 * fall, 1.0), _LEAST_FALL)
+                field, before_it = field + fall * difference, difference
             share = 0.5 * share if change > last else share
             last = change
-            if local:
-                field = field + (share if self.law.memory_distance > 0.0 else 0.5 * share) * difference
             if plastic and self.layer is not None and self.layer.hardening != 0.0:
                 tau = tau + share * (new_tau - tau)
             if self.coupling is not None and turn + 1 < self._turns:

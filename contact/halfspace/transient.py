@@ -22,7 +22,7 @@ from typing import Any
 import numpy as np
 
 from contact.arrays import Array
-from contact.creepage import Creepage
+from contact.creepage import Creepage, as_creepage
 from contact.errors import ContactError, require_number, require_pair
 from contact.friction import Friction, as_friction
 from contact.given_force import wanted_force
@@ -43,7 +43,6 @@ from contact.solution import Status
 
 #: Given forces (Fx, Fy) on the wheel [N]; None where the motion is given.
 Force = float | tuple[float | None, float | None]
-#: What a copy has from the original.
 _KEPT = ("_amount", "_gap", "_grid", "_state", "_normal", "_pressed", "distance", "speed", "friction", "law", "_local")
 #: Turns between pressure and traction of unlike bodies.
 _TURNS = 40
@@ -205,6 +204,7 @@ class Transient(OwnsArrays):
         approach: float | None = None,
         force: Force | None = None,
         gap: Gap | None = None,
+        sliding: bool = False,
     ) -> GridSolution:
         """Roll by `distance` [m], and return the solution.
 
@@ -217,6 +217,8 @@ class Transient(OwnsArrays):
             usual. Much shorter steps bring wiggles of the traction from element to element.
         load, approach, force, gap :
             As for `shift`; with a force, the creepage in its direction is found.
+        sliding : bool
+            Friction that falls may have several solutions: search from fast sliding, not from rest.
 
         Returns
         -------
@@ -225,7 +227,7 @@ class Transient(OwnsArrays):
         """
         step = require_number("distance", distance, 0.0, open_minimum=True)
         within(self.take)(load, approach, gap)
-        solution = self._step(_creepage(creepage), step, self._coefficient(creepage), force)
+        solution = self._step(as_creepage(creepage), step, self._coefficient(creepage), force, sliding)
         self.distance += step
         return solution
 
@@ -241,7 +243,7 @@ class Transient(OwnsArrays):
     ) -> GridSolution:
         """Roll until nothing changes any more, and return the solution of steady rolling. Arguments as for `roll`."""
         within(self.take)(load, approach, gap)
-        return self._step(_creepage(creepage), math.inf, self._coefficient(creepage), force)
+        return self._step(as_creepage(creepage), math.inf, self._coefficient(creepage), force)
 
     @one_thread
     def forget(self, *, keep_pressure: bool = False) -> None:
@@ -357,13 +359,15 @@ class Transient(OwnsArrays):
             self._normal, self._pressed = found, self._amount
         return found
 
-    def _step(self, motion: Creepage, distance: float, mu: float | None, force: Force | None) -> GridSolution:
+    def _step(
+        self, motion: Creepage, distance: float, mu: float | None, force: Force | None, sliding: bool = False
+    ) -> GridSolution:
         """Return the solution of one step; `distance` 0 is a shift, then everything is in metres instead of over V."""
         grid, friction = self._grid, self.friction
         factor = friction.factor(grid.y)[:, None] if friction.gauge_factor != 1.0 else 1.0
         given = (None, None) if force is None else wanted_force(force)
         self._stepper.progress = self._progress
-        outcome = self._stepper.solve(self._state, motion, distance, self._press, factor, mu, given)
+        outcome = self._stepper.solve(self._state, motion, distance, self._press, factor, mu, given, sliding)
         self._state = outcome.state
         normal, found = outcome.normal, outcome.tangential
         status = status_of(self._gap, normal.p, grid.y, normal.converged and found.converged and outcome.converged)
@@ -387,12 +391,6 @@ class Transient(OwnsArrays):
             tangential="halfspace",
             layer=outcome.sheared,
         )
-
-
-def _creepage(creepage: Creepage) -> Creepage:
-    if not isinstance(creepage, Creepage):
-        raise ContactError(f"creepage = {creepage!r} is not a contact.Creepage")
-    return creepage
 
 
 def _amount(load: float | None, approach: float | None) -> dict[str, float]:

@@ -14,45 +14,67 @@ from contact.geometry import formats, placing
 from contact.geometry.shape import Profile
 from contact.geometry.smoothing import filtered
 from contact.geometry.surfaces import RailSurface, SurfacePair, WheelSurface
+from contact.geometry.wheelset import place_of_rail
+from contact.halfspace.gap import MAX_SIDE, Division
 from contact.inp.case import Case
 from contact.inp.grid import material
 from contact.inp.reasons import RefusedError, refuse
 
 _READERS = {".prr": formats.simpack, ".prw": formats.simpack, ".ban": formats.miniprof, ".whl": formats.miniprof}
+#: Distance of the longitudinal paths by which a profile that does not change is described [m].
+_PATHS = 2.5e-4
 #: Wavelengths that the filter takes [m].
 _SHORTEST, _LONGEST = 1e-4, 0.05
 
 
 def pair(case: Case) -> SurfacePair:
     """Return wheel and rail of a case, with the elements and distances of its grid."""
-    wheel, rail = cast(Any, body(case, "W")), cast(Any, body(case, "R"))
-    origin = None
+    wheel, rail = body(case, "W"), body(case, "R")
     if case["GAUGHT"] <= 0.0:
         y = case["RAILY0"]
         origin = (y if case.digits["C1"] in (1, 5) else -y), case["RAILZ0"]
-    elif not isinstance(rail, Profile):
+    elif isinstance(rail, Profile):
+        origin = place_of_rail(rail, case["GAUGWD"], case["GAUGHT"])
+    else:
         raise refuse(case, "input", "GAUGHT > 0 with slices of a rail; allowed: GAUGHT ≤ 0")
-    to: dict[str, Any] = {}
-    if origin is None:
-        to = {"gauge": case["GAUGWD"], "gauge_point": case["GAUGHT"]}
+    if isinstance(wheel, Profile):
+        wheel = WheelSurface([0.0], [wheel], spacing=_PATHS, name=wheel.name)
+    if isinstance(rail, Profile):
+        rail = RailSurface([0.0], [rail], spacing=_PATHS, name=rail.name)
     return SurfacePair(
-        wheel,
-        rail,
+        cast(WheelSurface, wheel),
+        cast(RailSurface, rail),
         side="right" if case.digits["C1"] in (1, 5) else "left",
         nominal_radius=case["NOMRADW"],
         flange_back=case["FBDIST"] - 2.0 * case["FBPOS"] - 0.14,
         rail_origin=origin,
-        combine_distance=case["D_COMB"],
+        combine_distance=case["D_SEP"],
         spacing=(case["DX"], case["DS"]),
         material=material(case),
-        **to,
     )
+
+
+class Centred(Division):
+    """Division into elements of given size of which one has its centre at the reference point, as CONTACT has them."""
+
+    def centres(self, box: tuple[float, float, float, float]) -> tuple[Array, Array]:
+        """Return x and y [m] of the centres of the elements that cover the box."""
+        assert self.spacing is not None
+        back, front, low, high = box
+        return _around(back, front, self.spacing[0]), _around(low, high, self.spacing[1])
+
+
+def _around(low: float, high: float, step: float) -> Array:
+    first, last = math.floor(low / step), math.ceil(high / step)
+    if last - first > MAX_SIDE - 2:
+        raise ContactError(f"spacing = {step:g} makes {last - first} elements along a side; allowed: {MAX_SIDE - 2}")
+    return np.arange(first, last + 1, dtype=np.float64) * step
 
 
 def key(case: Case) -> tuple[Any, ...]:
     """Return what the pair depends on: cases of equal key share it."""
     names = [
-        *("FBDIST", "FBPOS", "NOMRADW", "GAUGHT", "GAUGWD", "RAILY0", "RAILZ0", "CANT", "D_COMB", "DX", "DS"),
+        *("FBDIST", "FBPOS", "NOMRADW", "GAUGHT", "GAUGWD", "RAILY0", "RAILZ0", "CANT", "D_SEP", "DX", "DS"),
         *("POISS1", "POISS2", "GG1", "GG2", "YTAPE"),
     ]
     of_profile = ("FNAME", "MIRRORY", "MIRRORZ", "SCALE", "SMOOTH", "ISMOOTH")

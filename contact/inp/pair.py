@@ -37,7 +37,6 @@ def require_supported(case: Case, fast: bool) -> None:
         ("damping", digits["M2"] == 2 and any(case[name] for name in ("CDAMPN", "CDAMPT")), "M2 = 2"),
         ("curve", case["CURV"] != 0.0, "CURV"),
         ("unlike bodies in a pair", material(case).coupling != 0.0, "K"),
-        ("friction along the profile", case["ROWS"] == 2 and _varies(case), "V = 2"),
         ("friction along the profile", case["ROWS"] == 1 and fast and _varies(case), "V = 1"),
     ):
         if wrong:
@@ -92,7 +91,7 @@ def _friction(case: Case, patch: Any, side: str) -> Friction:
         if rows == 0:
             return float(given)
         if rows == 2:
-            return float(given[0])
+            return float(np.interp(case["S_WS"], case["SVF"], given))
         mirror = 1.0 if side == "right" else -1.0
         angle = mirror * (patch.angle - case["ROLL"])
         return float(np.interp(angle, case["ALPHA"], given))
@@ -148,7 +147,11 @@ class PairRunner:
         key = bodies.key(case)
         if self._pair is None or key != self._key:
             made: SurfacePair = bodies.pair(case)
-            self._pair = WheelRailPair(made, material=made.material) if self._fast else _FilePair(made)
+            if self._fast:
+                self._pair = WheelRailPair(made, material=made.material)
+            else:
+                self._pair = _FilePair(made)
+                self._pair.pair.division = bodies.Centred(*made.division)
             self._key = key
         return self._pair
 

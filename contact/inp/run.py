@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import time
 import warnings
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from concurrent.futures import ProcessPoolExecutor
+from dataclasses import replace
 from functools import partial
 from typing import Any
 
@@ -50,23 +51,25 @@ def solve(
         In the order of the cases. A case that cannot run has the status "refused", a named reason and a message.
     """
     chains, results, done = chains_of(cases), {}, 0
-    run = partial(_run, fast=fast, memory=memory, fields=fields)
     if workers > 1 and len(chains) > 1:
+        parts = _parts(chains, 4 * workers)
         with ProcessPoolExecutor(workers) as pool:
-            parts = _parts(chains, 4 * workers)
-            for part, found in zip(parts, pool.map(run, parts), strict=True):
+            for part, found in zip(
+                parts, pool.map(partial(_run, fast=fast, memory=memory, fields=fields), parts), strict=True
+            ):
                 for (k, _), result in zip(part, found, strict=True):
                     results[k] = result
                 done += len(part)
                 if progress is not None:
                     progress(done, len(cases))
     else:
-        for chain in chains:
-            for (k, _), result in zip(chain, run(chain), strict=True):
-                results[k] = result
-                done += 1
-                if progress is not None:
-                    progress(done, len(cases))
+        # the cases of the file, those of a chain one after the other
+        order = [one for chain in chains for one in chain]
+        for k, result in zip((k for k, _ in order), _each(order, fast, memory, fields), strict=True):
+            results[k] = result
+            done += 1
+            if progress is not None:
+                progress(done, len(cases))
     return [results[k] for k in range(len(cases))]
 
 
@@ -112,19 +115,23 @@ def _parts(chains: Iterable[Chain], count: int) -> list[Chain]:
 
 def _run(chain: Chain, fast: bool, memory: float, fields: bool) -> list[Result]:
     """Return the results of a chain, or of several."""
+    return list(_each(chain, fast, memory, fields))
+
+
+def _each(chain: Chain, fast: bool, memory: float, fields: bool) -> Iterator[Result]:
+    """Yield the results of a chain, or of several. What does not depend on the case before is kept, as profiles are."""
     runners: dict[tuple[int, int, int], Any] = {}
     broken: set[tuple[int, int, int]] = set()
-    found = []
     for _, case in chain:
         start = time.perf_counter()
-        if case.memory not in runners or not case.continues:
+        if case.memory not in runners or (case.module == 3 and not case.continues):
             runners[case.memory] = _runner(case, fast, memory, fields)
+        if not case.continues:
             broken.discard(case.memory)
         result = _one(case, runners[case.memory], case.memory in broken)
         if result.refused:
             broken.add(case.memory)
-        found.append(Result(**{**result.__dict__, "seconds": time.perf_counter() - start}))
-    return found
+        yield replace(result, seconds=time.perf_counter() - start)
 
 
 def _runner(case: Case, fast: bool, memory: float, fields: bool) -> Any:

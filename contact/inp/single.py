@@ -167,7 +167,8 @@ class Single:
             return contact.shift(-xi, -eta, -spin, force=force)
         creepage = Creepage(sign * xi, sign * eta, -spin)
         if digits["T"] == 2:
-            return contact.roll(creepage, distance=case["DQ"], force=force)
+            sliding = digits["G"] in (2, 3, 4) and case["INISLP"] < 0
+            return contact.roll(creepage, distance=case["DQ"], force=force, sliding=sliding)
         return contact.roll_on(creepage, force=force)
 
     @staticmethod

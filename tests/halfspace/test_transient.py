@@ -128,7 +128,7 @@ def test_a_separation_and_mirrored_motion():
         (lambda: Transient(contact.Separation.hertzian(1.0, 1.0), load=1.0, layer=0.1), "layer = 0.1 is not"),
         (lambda: circle().shift(math.nan), "longitudinal = nan is not finite"),
         (lambda: circle().roll(contact.Creepage(), distance=0.0), "distance = 0 is outside"),
-        (lambda: circle().roll(1e-3, distance=1e-3), "creepage = 0.001 is not a contact.Creepage"),
+        (lambda: circle().roll(1e-3, distance=1e-3), "creepage = 0.001 is neither a contact.Creepage"),
         (lambda: Transient(contact.Separation.hertzian(1.0, 1.0), load=1.0).shift(load=2.0), "load = 2 is outside"),
         (lambda: circle().shift(load=1.0, approach=1e-5), "only one may be given"),
         (lambda: circle().shift(force="much"), "force = 'much'"),

@@ -185,3 +185,22 @@ def test_a_term_is_halved_at_its_velocity(kind, share):
 def test_a_wrong_law_is_refused(wrong):
     with pytest.raises(contact.ContactError):
         LocalLaw(**{"kinetic": 0.2, **wrong})
+
+
+def test_falling_friction_has_a_sticking_and_a_sliding_step_as_in_contact():
+    """CONTACT 25.1, veldep_fric.ref_out cases 2 and 4: 77 of 81 elements stick, or 34; FX 111600 or 106400 N."""
+    x, row = (np.arange(-1, 93) * 0.1 - 4.6) * 1e-3, 0.2
+    h = np.full((3, 94), 1.0)
+    h[1, 1:-1] = x[1:-1] ** 2 / (2.0 * 0.46)
+    gap = Gap(x, np.array([-row, 0.0, row]), h)
+    law = LocalLaw(0.18, (("exponential", 0.12, 0.1),))
+    stick, force = [], []
+    for sliding in (False, True):
+        patch = Transient(gap, load=622216.0, friction=law, material=contact.Material(82e9, 0.28), speed=45.0)
+        patch.roll_on(contact.Creepage(0.0009999))
+        s = patch.roll(contact.Creepage(0.001), distance=1e-4, sliding=sliding)
+        assert s.status is contact.Status.OK
+        stick.append(int((s.stick & (s.p > 0.0)).sum()))
+        force.append(-s.Fx)
+    assert stick == [77, 34]
+    assert force == pytest.approx([111.6e3, 106.4e3], abs=60.0)

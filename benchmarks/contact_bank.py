@@ -1,0 +1,107 @@
+"""Run a folder of CONTACT's input files, compare with its printed results, and write the tables of docs/use/from_contact.md.
+
+    make bank BANK=folder     (or: python benchmarks/contact_bank.py FOLDER --write docs/use/from_contact.md)
+
+The folder is the public bank of CONTACT 25.1 or a part of it; it is not part of the repository. Times are process times of one
+thread. Without a folder only the table of digits is written, which a test compares with the table of the format.
+"""
+
+from __future__ import annotations
+
+import argparse
+import math
+import time
+from collections import Counter
+from pathlib import Path
+
+from contact import inp
+from contact.errors import ContactError
+from contact.inp.digits import digit_table, with_part
+
+#: Cases of a file that are run, at most: files without printed results show the time, and a few cases do for that.
+_MOST_UNCOMPARED = 50
+#: Times of CONTACT [s], built with gfortran -O2 and MKL, one thread, the whole run.
+CONTACT_TIMES = {
+    "bentall": 5.9,
+    "carter2d": 0.06,
+    "catt_to_cart": 2.3,
+    "cattaneo": 0.02,
+    "conformal": 0.25,
+    "ertz_temperature": 1.06,
+    "fastsim": 1.32,
+    "mbench_a22_kpec": 1.44,
+    "mbench_a22_left": 1.75,
+    "mbench_a22_right": 1.83,
+    "mbench_a22_varfric": 3.7,
+    "plastic_3bl": 0.15,
+    "spence35": 1.5,
+    "subsurf": 0.35,
+    "tractcurv": 14.6,
+    "veldep_fric": 0.60,
+    "visc_cylindr": 0.13,
+    "wheelflat": 16.7,
+    "carter2d_100": 3.1,
+    "carter2d_800": 23.5,
+    "mbench_100kn_dx05_zpos": 3.9,
+}
+HEAD = (
+    "| file | cases | run | compared | agree | refused | force | pressure | approach | time here [s] | CONTACT [s] |\n"
+    "|---|---|---|---|---|---|---|---|---|---|---|\n"
+)
+
+
+def row(path: Path) -> str:
+    """Return the row of one file."""
+    name = path.stem
+    try:
+        cases = inp.read(path)
+    except ContactError as error:
+        return f"| {name} | – | – | – | – | {str(error).split(': ', 1)[-1]} | | | | | |\n"
+    reference = path.with_suffix(".ref_out")
+    chosen = cases if reference.exists() or len(cases) <= _MOST_UNCOMPARED else cases[:_MOST_UNCOMPARED]
+    start = time.process_time()
+    results = inp.solve(chosen)
+    taken = time.process_time() - start
+    reasons = Counter(result.refused for result in results if result.refused)
+    told = ", ".join(f"{reason} ({count})" for reason, count in reasons.items())
+    ran = sum(not result.refused for result in results)
+    compared = agree = 0
+    worst = ["", "", ""]
+    if reference.exists():
+        differences = inp.compare(results, inp.read_printed(reference))
+        of_case = inp.worst_of(differences)
+        compared, agree = len(of_case), sum(error <= 1e-3 for error in of_case.values())
+        groups = (("FN", "FX", "FY", "FX(TR)", "FY(TR)", "FZ(TR)"), ("PMAX",), ("APPROACH",))
+        for k, names in enumerate(groups):
+            errors = [one.error for one in differences if one.name in names and math.isfinite(one.error)]
+            worst[k] = f"{max(errors):.1e}" if errors else ""
+    there = CONTACT_TIMES.get(name)
+    whole = len(chosen) == len(cases)
+    theirs = "" if there is None or not whole else f"{there:g}"
+    shown = f"{len(cases)}" if whole else f"{len(chosen)} of {len(cases)}"
+    cells = [name, shown, ran, compared or "", agree if compared else "", told, *worst, f"{taken:.2f}", theirs]
+    return f"| {' | '.join(map(str, cells))} |\n"
+
+
+def main() -> None:
+    """Write the tables, or print them."""
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("folder", type=Path, nargs="?")
+    parser.add_argument("--write", type=Path)
+    given = parser.parse_args()
+    parts = {"digits": digit_table()}
+    if given.folder is not None:
+        rows = []
+        for path in sorted(given.folder.rglob("*.inp")):
+            rows.append(row(path))
+            print(rows[-1], end="", flush=True)
+        parts["files"] = HEAD + "".join(rows)
+    if given.write is not None:
+        text = given.write.read_text(encoding="utf-8")
+        for name, part in parts.items():
+            text = with_part(text, name, part)
+        given.write.write_text(text, encoding="utf-8")
+
+
+if __name__ == "__main__":
+    main()
