@@ -18,6 +18,7 @@ from contact.arrays import Array
 from contact.errors import ContactError
 from contact.text import lines_of
 
+LARGEST_SERIES = 200e6  # bytes
 _SHOWN = 60  # letters of a line in a message
 _NUMBER = re.compile(r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eEdDqQ][+-]?\d+)?")
 _MISSING = re.compile(
@@ -317,13 +318,16 @@ def table(path: str | PathLike[str], name: str = "path") -> Table:
         content of the line.
     """
     where = f"{name} = {str(path)!r}"
-    lines = [(k, line) for k, line in enumerate(lines_of(path, name), 1) if line.strip() and line.strip()[0] != "#"]
+    given = lines_of(path, name, LARGEST_SERIES)
+    lines = [(k, line) for k, line in enumerate(given, 1) if line.strip() and line.strip()[0] != "#"]
     if not lines:
         raise ContactError(f"{where} holds no columns of numbers")
     body = [line for _, line in lines[1:]] or [lines[0][1]]
     dialect = _dialect_of_table(lines[0][1], body[:400])
     head = dialect.cells(lines[0][1])
     names = head if any(number(cell, dialect.comma) is None for cell in head) else []
+    if (quick := _quickly([line for _, line in lines[1 if names else 0 :]], dialect, len(head))) is not None:
+        return Table(names, quick)
     rows = []
     for k, line in lines[1:] if names else lines:
         cells = dialect.cells(line)
@@ -337,6 +341,18 @@ def table(path: str | PathLike[str], name: str = "path") -> Table:
                 raise ContactError(f"{where}, line {k}: {which} = {cells[column][:_SHOWN]!r} is not a finite number")
         rows.append(values)
     return Table(names, np.array(rows, dtype=np.float64).reshape(len(rows), len(head)))
+
+
+def _quickly(lines: Sequence[str], dialect: Dialect, n: int) -> Array | None:
+    """Return the numbers in lines of plain numbers, which long series have; None if they are not all of that kind."""
+    signs = {"\t": "\t", ";": ";", ",": ",", r"\s+": None}
+    if dialect.comma or dialect.separator not in signs or not lines:
+        return None
+    try:
+        found = np.loadtxt(lines, delimiter=signs[dialect.separator], ndmin=2, comments=None)
+    except ValueError:
+        return None
+    return found if found.shape == (len(lines), n) and np.isfinite(found).all() else None
 
 
 def _dialect_of_table(head: str, body: Sequence[str]) -> Dialect:

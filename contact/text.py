@@ -59,27 +59,27 @@ _PLAIN = str.maketrans(
 )
 
 
-def read(path: str | PathLike[str], name: str = "path", what: str = "a profile has some hundred kB") -> str:
+def read(path: str | PathLike[str], name: str = "path", largest: float = LARGEST_FILE) -> str:
     """Return the text of a file: UTF-8 with or without byte order mark, UTF-16, UTF-32, or Windows' and Latin letters.
 
     Raises
     ------
     ContactError
-        If the file is missing, larger than 20 MB, no regular file, empty, or no text. The message names what it is.
+        If the file is missing, larger than `largest` [bytes], no regular file, empty, or no text. The message names what it is.
     """
-    return decoded(content(path, name, what), f"{name} = {str(path)!r}")
+    return decoded(content(path, name, largest), f"{name} = {str(path)!r}")
 
 
-def content(path: str | PathLike[str], name: str = "path", what: str = "a profile has some hundred kB") -> bytes:
+def content(path: str | PathLike[str], name: str = "path", largest: float = LARGEST_FILE) -> bytes:
     """Return the bytes of a file. Raise a ContactError if it is missing, too large, or no regular file."""
-    require_file(path, name, what)
+    require_file(path, name, largest)
     try:
         return Path(path).read_bytes()
     except OSError as error:
         raise ContactError(f"{name} = {str(path)!r} cannot be read: {error.strerror}") from None
 
 
-def require_file(path: str | PathLike[str], name: str = "path", what: str = "a profile has some hundred kB") -> None:
+def require_file(path: str | PathLike[str], name: str = "path", largest: float = LARGEST_FILE) -> None:
     """Raise a ContactError if a file is missing, too large, or no regular file."""
     path = Path(path)
     try:
@@ -95,10 +95,8 @@ def require_file(path: str | PathLike[str], name: str = "path", what: str = "a p
     if not path.is_file():  # reading a named pipe would wait for ever
         raise ContactError(f"{name} = {str(path)!r} is not a regular file")
     size = path.stat().st_size
-    if size > LARGEST_FILE:
-        raise ContactError(
-            f"{name} = {str(path)!r} holds {1e-6 * size:.0f} MB; {what}, allowed: {1e-6 * LARGEST_FILE:.0f} MB"
-        )
+    if size > largest:
+        raise ContactError(f"{name} = {str(path)!r} holds {1e-6 * size:.0f} MB; allowed: {1e-6 * largest:.0f} MB")
 
 
 def decoded(given: bytes, where: str) -> str:
@@ -154,9 +152,9 @@ def _unmarked(given: bytes, where: str) -> str:
     return "latin-1"
 
 
-def lines_of(path: str | PathLike[str], name: str = "path") -> list[str]:
+def lines_of(path: str | PathLike[str], name: str = "path", largest: float = LARGEST_FILE) -> list[str]:
     """Return the lines of a file, with plain signs for the typographic ones of numbers, blanks and quotes."""
-    return re.split(r"\r\n|\n|\r", plain(read(path, name)))
+    return re.split(r"\r\n|\n|\r", plain(read(path, name, largest)))
 
 
 def plain(text: str) -> str:
@@ -172,7 +170,7 @@ def toml(path: str | PathLike[str], name: str = "path") -> dict[str, Any]:
     ContactError
         If the file cannot be read or is not TOML. The message has line and column.
     """
-    return toml_of(read(path, name, "a TOML file has some kB"), str(path))
+    return toml_of(read(path, name), str(path))
 
 
 def toml_of(text: str, where: str) -> dict[str, Any]:

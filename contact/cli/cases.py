@@ -9,16 +9,17 @@ from __future__ import annotations
 
 import csv
 import json
-import tomllib
 from collections.abc import Mapping, Sequence
 from contextlib import suppress
 from dataclasses import fields
 from pathlib import Path
 from typing import Any
 
+from contact import text
 from contact.cli import arguments
 from contact.cli import options as opt
 from contact.cli.problem import OF_A_POSITION, amount_of, find_patches, standard_load
+from contact.columns import number
 from contact.creepage import Creepage
 from contact.errors import ContactError, require_number
 from contact.separation import Separation
@@ -55,14 +56,11 @@ def read(path: Path, defaults: Mapping[str, Any]) -> list[Case]:
     reader = readers.get(path.suffix.lower())
     if reader is None:
         raise ContactError(f"{path} cannot be read: a file of cases ends in one of {', '.join(readers)}")
+    if not path.is_file():
+        raise ContactError(f"{path} cannot be read: No such file")
     try:
-        common, cases = reader(path.read_text(encoding="utf-8-sig"))
-    except OSError as error:
-        raise ContactError(f"{path} cannot be read: {error.strerror}") from None
-    except (
-        ValueError,
-        RecursionError,
-    ) as error:  # includes the errors of tomllib and json, and bytes that are not UTF-8
+        common, cases = reader(text.read(path))
+    except (ValueError, RecursionError) as error:  # includes the errors of tomllib, json and `text.read`
         raise ContactError(f"{path} cannot be read: {error}") from None
     if not cases:
         raise ContactError(f"{path} holds no case")
@@ -123,21 +121,30 @@ def _shown(profile: str) -> str:
     return name if "." in name else name.upper()
 
 
-def _toml(text: str) -> tuple[dict[str, Any], Sequence[Any]]:
-    return _split(tomllib.loads(text))
+def _toml(given: str) -> tuple[dict[str, Any], Sequence[Any]]:
+    return _split(text.toml_of(given, "it"))
 
 
-def _json(text: str) -> tuple[dict[str, Any], Sequence[Any]]:
-    content = json.loads(text)
+def _json(given: str) -> tuple[dict[str, Any], Sequence[Any]]:
+    content = json.loads(given)
     return ({}, content) if isinstance(content, list) else _split(content)
 
 
-def _csv(text: str) -> tuple[dict[str, Any], Sequence[Any]]:
-    lines = csv.DictReader(line for line in text.splitlines() if line.strip() and not line.startswith("#"))
-    cases = list(lines)
+def _csv(given: str) -> tuple[dict[str, Any], Sequence[Any]]:
+    lines = [line for line in text.plain(given).splitlines() if line.strip() and not line.startswith("#")]
+    separator = next((sign for sign in ";\t" if lines and sign in lines[0]), ",")
+    cases = list(csv.DictReader(lines, delimiter=separator))
     if any(None in case or None in case.values() for case in cases):
         raise ValueError("a line has more or fewer cells than names")
-    return {}, [{name.strip(): cell.strip() for name, cell in case.items() if cell.strip()} for case in cases]
+    return {}, [{name.strip(): _cell(cell, separator) for name, cell in case.items() if cell.strip()} for case in cases]
+
+
+def _cell(cell: str, separator: str) -> str:
+    """Return a cell, of numbers with decimal points."""
+    words = cell.split()
+    if separator != "," and all(number(word, comma=True) is not None for word in words):
+        return " ".join(word.replace(",", ".") for word in words)
+    return cell.strip()
 
 
 def _split(content: Any) -> tuple[dict[str, Any], Sequence[Any]]:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import csv
 import math
 from pathlib import Path
 from typing import Annotated, Any, cast
@@ -15,6 +14,7 @@ from contact.cli import options as opt
 from contact.cli.output import deliver, drawing, prepare, reported, require_trusted
 from contact.cli.problem import carried
 from contact.cli.report import show_curve
+from contact.columns import table
 from contact.errors import ContactError
 from contact.geometry.wheelset import Pair
 from contact.pair import ContactDamping, ElasticRail, FrictionMemory, WheelRailPair
@@ -23,7 +23,8 @@ from contact.registry import DEFAULT_NORMAL, DEFAULT_TANGENTIAL
 
 _SHOWN = 25  # lines of the printed table
 File = Annotated[
-    Path, typer.Argument(help="CSV file: a line of names, then a line per time", show_default=False, metavar="MOTION")
+    Path,
+    typer.Argument(help="file of columns: a line of names, then a line per time", show_default=False, metavar="MOTION"),
 ]
 Memory = Annotated[
     tuple[float, float] | None,
@@ -112,20 +113,12 @@ def in_time(
 
 
 def _read(path: Path) -> dict[str, np.ndarray]:
-    """Return the columns of a CSV file by name."""
-    try:
-        lines = [line for line in csv.reader(path.read_text(encoding="utf-8-sig").splitlines()) if line]
-    except (OSError, ValueError) as error:  # ValueError: bytes that are not UTF-8
-        raise ContactError(f"{path} cannot be read: {error}") from None
-    if len(lines) < 2:
+    """Return the columns of a file by name."""
+    if not path.is_file():
+        raise ContactError(f"{path} cannot be read: there is no such file")
+    found = table(path, "motion")
+    if not found.names or not len(found.values):
         raise ContactError(f"{path} holds no motion: a line of names and a line for each time are needed")
-    names = [name.strip() for name in lines[0]]
-    for number, line in enumerate(lines[1:], 2):
-        if len(line) != len(names):
-            raise ContactError(f"{path}: line {number} has {len(line)} values for {len(names)} names")
-    if len(set(names)) < len(names):
+    if len(set(found.names)) < len(found.names):
         raise ContactError(f"{path}: a name stands twice")
-    try:
-        return dict(zip(names, np.array(lines[1:], dtype=np.float64).T, strict=True))
-    except ValueError as error:
-        raise ContactError(f"{path}: {error}") from None
+    return dict(zip(found.names, found.values.T, strict=True))

@@ -10,6 +10,8 @@ suffix              kind            content of the file, and assumptions
 .mpt                `kind`          MiniProf with sections, otherwise as before. `kind` is required.
 .whe .rai           wheel, rail     VAMPIRE, both sides in one file. `side` selects one; default right.
 .wheel .rail        wheel, rail     GENSYS (KPF), in millimetres, y towards the track's centre.
+.dxf                `kind`          Drawing: lines, arcs, polylines and splines, joined where they meet (needs ezdxf).
+.xlsx               `kind`          Workbook: columns as below (needs openpyxl).
 others              `kind`          Two or more columns y, z separated by blanks, tabs, semicolons, commas or bars, below some
                                     lines of text. `kind`, `unit` and `side` are required. The direction of z is found from
                                     the shape.
@@ -31,7 +33,7 @@ from typing import Any, Literal
 import numpy as np
 
 from contact.errors import ContactError, ProfileWarning, require_number
-from contact.geometry import formats, inspection
+from contact.geometry import drawings, formats, inspection
 from contact.geometry.inspection import FATAL, Fault
 from contact.geometry.judgement import Inspection as Inspection
 from contact.geometry.judgement import inspect_profile, judged
@@ -45,6 +47,10 @@ Zero = Literal["file", "flange_back", "shape"]
 UNITS: dict[str, float] = inspection.UNITS
 KINDS, SIDES, ZEROS = ("wheel", "rail"), ("right", "left"), ("file", "flange_back", "shape")
 MOST_POINTS = 100_000
+READERS = formats.FORMATS | {
+    ".dxf": formats.Format(drawings.dxf, complete=False, choices=("section",)),
+    ".xlsx": formats.Format(drawings.xlsx, complete=False, choices=("columns", "rows", "section")),
+}
 _FARTHEST = 1e6  # of a point from the origin [m]; products of larger numbers overflow
 
 
@@ -91,7 +97,7 @@ def read(
     rows : tuple of int, optional
         First and last line that is read, from 1; 0 as the last is the end.
     section : int or "joined", optional
-        For files with several lists of points (.mpt): the number of one, from 1, or all joined end to end.
+        For files with several lists of points (.mpt, .dxf, .xlsx): the number of one, from 1, or all joined end to end.
     repair : bool
         Sort rows, keep one of several scans, drop points that step back and spikes.
     smoothing : float, optional
@@ -195,7 +201,7 @@ def inspect(
         raise ContactError(f"smoothing = {smoothing:g} and wavelength = {wavelength:g} exclude each other")
     scale = require_number("scale", scale, 0.01, 2.0)
     choice = formats.as_choice(side or "", columns, rows, section)
-    known = formats.FORMATS.get(path.suffix.lower(), formats.COLUMNS)
+    known = READERS.get(path.suffix.lower(), formats.COLUMNS)
     if kind is not None and known.kind not in (None, kind):
         raise ContactError(f"kind = {kind!r}, but {path.name!r} is a file of a {known.kind}")
     for name in ("columns", "rows", "section"):
@@ -215,7 +221,7 @@ def inspect(
     content = known.read(path, choice)
     size = UNITS[unit] if unit else content.unit or 1.0
     if unit:  # the user says it, not the format
-        content = replace(content, unit=None)
+        content = replace(content, unit=None, told=drawings.own_unit(content.told, unit))
     if len(content.points) > MOST_POINTS:
         raise ContactError(f"path = {str(path)!r} holds {len(content.points)} points; allowed: {MOST_POINTS}")
     measured = content.points * size

@@ -113,7 +113,7 @@ def simpack(path: Path, choice: Choice) -> Content:
                 header[key.strip()] = given
     if not rows:
         raise ContactError(f"path = {str(path)!r} holds no points between point.begin and point.end")
-    points, told = _points(rows, path, choice, heading=False, quotes=True)
+    points, told = points_in(rows, path, choice, heading=False, quotes=True)
     points = np.add(points, (header.get("shift.y", 0.0), header.get("shift.z", 0.0)))
     turn = header.get("rotate", 0.0) / (header.get("units.ang.f") or 1.0)
     c, s = np.cos(turn), np.sin(turn)
@@ -131,7 +131,7 @@ def simpack(path: Path, choice: Choice) -> Content:
 
 def columns(path: Path, choice: Choice) -> Content:
     """Plain columns y, z, below lines of text. Blanks, tabs, semicolons, commas or bars separate them."""
-    points, told = _points(_lines(path, choice), path, choice)
+    points, told = points_in(_lines(path, choice), path, choice)
     return Content(points, outwards=choice.side != "left", told=told)
 
 
@@ -141,7 +141,7 @@ def miniprof(path: Path, choice: Choice) -> Content:
 
 
 def _miniprof(lines: Iterable[tuple[int, str]], path: Path, choice: Choice) -> Content:
-    points, told = _points(lines, path, choice, quotes=True)
+    points, told = points_in(lines, path, choice, quotes=True)
     return Content(points, MM, outwards=None if not choice.side else choice.side == "right", told=told)
 
 
@@ -208,7 +208,7 @@ def vampire(path: Path, choice: Choice) -> Content:
         )
     chosen_columns = (1, 2) if choice.side == "left" else (3, 4)
     try:
-        points, told = _points(
+        points, told = points_in(
             lines[4:], path, replace(choice, columns=chosen_columns), heading=False, quotes=True, needed=4
         )
     except ContactError as error:
@@ -260,7 +260,7 @@ def _lines(path: Path, choice: Choice) -> Iterable[tuple[int, str]]:
     return lines[first - 1 : last or None]
 
 
-def _points(
+def points_in(
     lines: Iterable[tuple[int, str]],
     path: Path,
     choice: Choice,

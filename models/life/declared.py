@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import re
-import tomllib
 import types
 from dataclasses import MISSING, fields, is_dataclass
 from os import PathLike
 from typing import Any, Literal, TypeVar, Union, get_args, get_origin, get_type_hints
 
+from contact import text
 from contact.errors import ContactError, suggestion
 
 Kind = TypeVar("Kind")
@@ -22,13 +22,7 @@ def read_table(path: str | PathLike[str]) -> dict[str, Any]:
     ContactError
         If the file cannot be read or is not TOML. The message has line and column.
     """
-    try:
-        with open(path, "rb") as file:
-            return tomllib.load(file)
-    except OSError as error:
-        raise ContactError(f"path = {str(path)!r}: {error.strerror}") from None
-    except (ValueError, RecursionError) as error:  # also numbers of thousands of digits, and nesting as deep
-        raise ContactError(f"{path} is not TOML: {error}") from None
+    return text.toml(path)
 
 
 def build(kind: type[Kind], table: object, where: str) -> Kind:

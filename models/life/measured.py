@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from contact.arrays import Array
+from contact.columns import table
 from contact.errors import ContactError, require_number, suggestion
 from .spectra import CHANNELS
 
@@ -137,10 +138,7 @@ class Measured:
 
     def _rows(self) -> Array:
         """Return the rows of the file, in its units: stations and channels."""
-        try:
-            rows = np.loadtxt(self.file, delimiter=",", skiprows=1, ndmin=2)
-        except (OSError, ValueError) as error:
-            raise ContactError(f"file = {self.file!r}: {error}") from None
+        rows = table(self.file, "file").values
         if not (np.abs(rows) < _FARTHEST).all():
             raise ContactError(f"file = {self.file!r}: a distance or a value is not within {_FARTHEST:g}")
         steps = np.diff(rows[:, 0])
