@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import inspect
 import re
-import textwrap
 import types
 from collections.abc import Iterator
 from dataclasses import MISSING, Field, fields, is_dataclass
@@ -13,6 +12,7 @@ from typing import Any, Literal, Union, get_args, get_origin, get_type_hints
 
 from contact.friction import LAWS, VELOCITIES
 from models.life import declared_set, scenario
+from models.life.explained import explained, is_type
 from models.life.spectra import SPECTRA
 from models.vehicle import declared as vehicle
 
@@ -53,35 +53,6 @@ def command_line() -> str:
     return "\n\n".join(parts) + "\n"
 
 
-def explained(kind: Any) -> dict[str, str]:
-    """Return key → meaning from the sections Parameters of a class and of its bases, as Markdown in one line."""
-    found: dict[str, str] = {}
-    for each in reversed(kind.__mro__):
-        found |= _explained(each.__doc__ or "")
-    return found
-
-
-def _explained(docstring: str) -> dict[str, str]:
-    text = inspect.cleandoc(docstring)
-    _, _, section = text.partition("Parameters\n----------\n")
-    section = re.split(r"\n\n?[A-Z][a-z]+\n-{4,}\n", section)[0]
-    found: dict[str, str] = {}
-    for block in re.split(r"\n(?=\S)", section.strip()):
-        head, _, body = block.partition("\n")
-        names, colon, rest = head.partition(" : ")
-        meaning = textwrap.dedent(body).replace("\n", " ").strip()
-        if not meaning or not _is_type(rest):
-            meaning = f"{rest} {meaning}".strip()
-        for name in names.split(","):
-            if colon:
-                found[name.strip()] = meaning
-    return found
-
-
-def _is_type(text: str) -> bool:
-    return bool(re.fullmatch(r"(float|int|str|bool|tuple of [\w ]+|\{.*\}|[A-Z]\w+)(, optional| or \w+)*", text))
-
-
 def _tables(kind: Any, where: str = "") -> dict[Any, list[str]]:
     """Return class → the places in the file where it stands, from the whole file inwards."""
     found: dict[Any, list[str]] = {kind: [where]}
@@ -117,7 +88,7 @@ def _table(places: list[str], kind: Any, title: str) -> str:
     for entry in fields(kind):
         if entry.init:
             value, meaning = _type(hints[entry.name]), known.get(entry.name) or lead
-            meaning = "see its own table" if "table" in value and _is_type(meaning) else meaning
+            meaning = "see its own table" if "table" in value and is_type(meaning) else meaning
             rows.setdefault((value, meaning), []).append((f"`{entry.name}`", _default(entry)))
     lines = ["| key | value | default | meaning |", "| --- | --- | --- | --- |"]
     for (value, meaning), entries in rows.items():

@@ -22,5 +22,8 @@ def add_plugins(app: typer.Typer, found: Iterable[EntryPoint] | None = None) -> 
         except (ImportError, AttributeError) as error:
             problems.append(f"the command {point.name!r} of {point.value} cannot be loaded: {error}")
         else:
-            app.command(point.name, rich_help_panel="Models")(command)
+            if isinstance(command, typer.Typer):
+                app.add_typer(command, name=point.name, rich_help_panel="Models")
+            else:
+                app.command(point.name, rich_help_panel="Models")(command)
     return problems

@@ -17,6 +17,7 @@ from contact.material import STEEL
 from . import scenario
 from .declared import build, read_table
 from .flange import Flange
+from .origin import hashed
 from .scenario import Scenario
 
 _GRAVITY = 9.81  # [m/s²]
@@ -148,14 +149,20 @@ class Declaration:
 
 @dataclass(frozen=True)
 class ScenarioSet:
-    """A declaration with its scenarios. Those with a weight share wheel and vehicle."""
+    """A declaration with its scenarios, and name and SHA-256 of its file. Those with a weight share wheel and vehicle."""
 
     declared: Declaration
     scenarios: tuple[Scenario, ...]
+    file: tuple[tuple[str, str], ...] = ()
 
     @property
     def name(self) -> str:
         return self.declared.name
+
+    @property
+    def files(self) -> tuple[tuple[str, str], ...]:
+        """Name and SHA-256 of the files of the set and of its scenarios."""
+        return (*self.file, *(each for one in self.scenarios for each in one.files))
 
     @property
     def first(self) -> Scenario:
@@ -214,7 +221,7 @@ def read(path: str | PathLike[str]) -> ScenarioSet:
     )
     for share, one in zip(declared.scenarios, scenarios, strict=True):
         one.require_profiles(f"{path.name}: {share.file}", "a study of wear takes")
-    found = ScenarioSet(declared, scenarios)
+    found = ScenarioSet(declared, scenarios, hashed([path]))
     lines: dict[str, tuple[Share, Scenario]] = {}
     first = (declared.scenarios[found.first_number], found.first)
     for share, other in zip(declared.scenarios, scenarios, strict=True):

@@ -130,6 +130,7 @@ class Wheel(Part):
         "flange_thickness": ("m", "Sd"),
         "qR": ("m", "qR"),
         "tread_depth": ("m", "depth worn off at the tape circle, from the unworn profile"),
+        "T_gamma": ("N", "mean T-gamma over the mileage of the step"),
     }
 
     def _times(self, total: Histogram, length: float) -> float:
@@ -143,6 +144,7 @@ class Wheel(Part):
             "flange_thickness": size.thickness,
             "qR": size.qR,
             "tread_depth": float(np.interp(0.0, self.new.y, displacement(self.new, self.last))),
+            "T_gamma": float(total["T_gamma"].sum()) / total.distance if total is not None else 0.0,
         }
 
     @property

@@ -12,6 +12,7 @@ from contact import plot
 from contact.accumulation import Histogram
 from contact.study.page import faint, html_of, picture
 from contact.study.table import Table, number
+from .origin import origin
 from .scenario import Scenario
 from .trust import Trust
 
@@ -55,6 +56,7 @@ def declaration(scenario: Scenario, step: float, steps: int) -> Iterator[str]:
     yield "<h2>Declaration</h2>"
     for entry in fields(scenario.declared):
         yield faint(f"{entry.name}: {told(getattr(scenario.declared, entry.name))}")
+    yield html_of(origin(scenario.files))
     yield faint(f"fingerprint {scenario.fingerprint}, step {1e3 * step:.4g} ms, {steps} steps")
 
 

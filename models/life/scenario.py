@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import hashlib
 import math
+from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
 from importlib.metadata import version
 from os import PathLike
@@ -21,11 +22,13 @@ from contact.material import STEEL, Material
 from contact.registry import DEFAULT_NORMAL, DEFAULT_TANGENTIAL, lookup
 from contact.solver import N_ELEMENTS, N_STRIPS, require_resolution
 from ..vehicle.declared import VehicleDeclaration
+from ..vehicle.declared import find as find_vehicle
 from ..vehicle.declared import read as read_vehicle
 from ..vehicle.sections import RailSection
 from ..vehicle.simulation import LONGEST_PACE, PACE, SIDES
 from . import reach
 from .declared import build, read_table
+from .origin import hashed
 from .slices import Rails
 from .torque import Torque
 from .track import FASTEST, SLOWEST, Speed, Track
@@ -211,6 +214,8 @@ class Scenario:
         Those of the declaration's `wheels.slices`.
     sections : tuple of RailSection
         Parts of the rails that are given by slices.
+    files : tuple of (str, str)
+        Name and SHA-256 of the files that were read.
     """
 
     declared: Declaration
@@ -222,6 +227,7 @@ class Scenario:
     both_rails: tuple[Profile, ...] = ()
     measured_wheels: tuple[WheelSurface, ...] = ()
     sections: tuple[RailSection, ...] = ()
+    files: tuple[tuple[str, str], ...] = field(default=(), compare=False)
 
     @property
     def wheel_names(self) -> tuple[tuple[str, str], ...]:
@@ -360,7 +366,21 @@ def from_table(table: dict[str, Any], path: Path) -> Scenario:
         both_rails=rails,
         measured_wheels=declared.wheels.load(path.parent, f"{path.name}.wheels"),
         sections=declared.rails.load(path.parent, f"{path.name}.rails"),
+        files=hashed(_paths(declared, path)),
     )
     reach.require_series(found, path.name)
     reach.doubt(found, path.name)
     return found
+
+
+def _paths(declared: Declaration, path: Path) -> Iterator[Path]:
+    """Yield the files of a scenario, and names of profiles that are none."""
+    folder, profiles, series = path.parent, declared.profiles, declared.track.series
+    yield path
+    yield from (folder / name for name in (profiles.wheel, profiles.rail, profiles.left_rail) if name)
+    if series is not None:
+        yield Path(series.file)
+    beside = folder / declared.vehicle
+    yield beside if beside.is_file() else find_vehicle(declared.vehicle)
+    for each in (*declared.rails.slices, *declared.wheels.slices):
+        yield folder / each.file

@@ -12,8 +12,9 @@ from contact import plot
 from contact.study.page import document, faint, html_of
 from contact.study.table import Table, number
 from ..wheelset.ports import SIDES
+from .origin import origin
 from .part import DENSITY, Part, displacement
-from .report import illustrated, warned
+from .report import illustrated, told, warned
 from .wear import Life
 
 _KM = 1e-3
@@ -67,6 +68,8 @@ def _parts(life: Life) -> Iterator[str]:
         yield illustrated(partial(plot.time_histories, km, _panels(life), xlabel="mileage [km]"), "Over the mileage")
     yield "<h2>Balance</h2>"
     yield html_of(_balance(life))
+    yield html_of(_scenarios(life))
+    yield html_of(origin(life.plan.files))
     yield faint(f"fingerprint {life.plan.fingerprint}")
 
 
@@ -106,6 +109,12 @@ def _since_new(part: Part, column: str) -> Any:
     return _MM * (part[column] - part[column][0])
 
 
+def _of_steps(wheel: Part) -> Any:
+    """Return the mean T-gamma of each step [N]; the first value is that of the first step, too."""
+    mean = wheel["T_gamma"]
+    return np.concatenate((mean[1:2], mean[1:]))
+
+
 def _over_profile(parts: list[Any], label: str, values: Callable[[Any], Any]) -> Any:
     """Draw something over the profiles of parts, which may have different points."""
     y = np.linspace(max(p.new.y[0] for p in parts), min(p.new.y[-1] for p in parts), 400)
@@ -124,10 +133,31 @@ def _panels(life: Life) -> dict[str, dict[str, Any]]:
     panels["NP [1/mm]"] = {axle: 1e-3 * conicity[:, i, -1] for i, axle in enumerate(life.axles)}
     for label, column in (("Sh", "flange_height"), ("Sd", "flange_thickness"), ("qR", "qR")):
         panels |= _by_side(life.wheels.values(), f"{label} − {label}₀ [mm]", partial(_since_new, column=column))
+    panels |= _by_side(life.wheels.values(), "T-gamma, mean [N]", _of_steps)
     panels["mass of a wheel [g]"] = {"mean": 1e3 * np.cumsum(life["mass"])}
     for label, column in (("rail, side [mm]", "side_depth"), ("rail, top [mm]", "top_depth")):
         panels |= _by_side(life.rails.values(), label, partial(_since_new, column=column))
     return panels
+
+
+def _scenarios(life: Life) -> Table:
+    """Return what the runs of a step are, and their shares of the mileage."""
+    rows = []
+    for share, weight, one in zip(life.plan.declared.scenarios, life.plan.weights, life.plan.scenarios, strict=True):
+        speeds = f"{one.slowest:g}" if one.slowest == one.fastest else f"{one.slowest:g} to {one.fastest:g}"
+        radii = ", ".join(f"{curve.radius:g} {curve.direction}" for curve in one.declared.track.curves) or "straight"
+        rows.append(
+            (
+                share.file,
+                f"{100.0 * weight:.1f}",
+                told(one.declared.friction),
+                speeds,
+                f"{one.declared.length:g}",
+                radii,
+            )
+        )
+    heads = [("", ""), ("weight", "%"), ("friction", ""), ("speed", "m/s"), ("length", "m"), ("curves", "m")]
+    return Table("Scenarios", heads, rows)
 
 
 def _three(life: Life) -> int:

@@ -58,6 +58,7 @@ def _parts(run: VehicleRun) -> Iterator[str]:
         yield html_of(_wheels(run))
         for heading, panels in _panels(run).items():
             yield f"<h2>{heading}</h2>"
+            yield faint(_EXPLAINED[heading])
             draw = partial(plot.time_histories, run.series["distance"], panels, xlabel="distance [m]")
             yield illustrated(draw, heading)
     yield from _vehicle(run)
@@ -206,6 +207,17 @@ def _told(name: str, values: list[float]) -> tuple[str, ...]:
     return name, *told
 
 
+#: What the panels under a heading show.
+_EXPLAINED = {
+    "Track": "Of the vehicle's reference: speed; curvature, positive to the right; cant, positive where the left rail is "
+    "higher.",
+    "Motion": "Lateral displacement (y) and yaw of the wheelsets against the ideal track, to the right and clockwise from "
+    "above; lateral displacement of the first body; the lateral acceleration that is felt there in the plane of the track, to "
+    "the right: what a passenger and an accelerometer on the floor feel, cant included.",
+    "Forces": "Of each wheel on its rail: Y outwards, Q downwards; means between two samples, not filtered.",
+    "Friction": "T-gamma: creep force times creepage, the energy that a wheel spends on each metre; contact angle of the patch "
+    "with the largest normal force, positive if its rail pushes the wheel to the track's centre.",
+}
 _FORCES = ("lateral_force", "vertical_force")
 
 
@@ -250,7 +262,7 @@ def _panels(run: VehicleRun) -> dict[str, dict[str, dict[str, Any]]]:
             "y [mm]": {name: 1e3 * s[f"{prefix}_lateral"] for name, prefix in axles},
             "yaw [mrad]": {name: 1e3 * s[f"{prefix}_yaw"] for name, prefix in axles},
             f"{run.simulation.names[0]} y [mm]": {"lateral": 1e3 * s[f"{body}_lateral"]},
-            "felt [m/s²]": {"lateral acceleration": s[f"{body}_lateral_acceleration"]},
+            "felt, lateral [m/s²]": {"lateral acceleration": s[f"{body}_lateral_acceleration"]},
         },
         "Forces": {**both("Y [kN]", "lateral_force", 1e-3), **both("Q [kN]", "vertical_force", 1e-3)},
         "Friction": {
