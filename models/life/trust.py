@@ -11,6 +11,8 @@ from contact.study.table import number
 LARGEST_RESIDUAL = 0.02
 #: A run in which a larger share of the contacts has no trustworthy solution is not to be believed either.
 LARGEST_UNTRUSTED = 1e-3
+#: An error of the step above this is told with its cure.
+LARGEST_STEP_ERROR = 0.02
 #: A rise of a normal force above this multiple of its static value is an impact.
 IMPACT = 2.0
 #: A wheel whose longitudinal creepage is larger spins or slides: its torque is more than friction bears.
@@ -157,8 +159,17 @@ class StepError:
         """The error as a sentence."""
         return (
             f"The step changes the energy dissipated in the contacts by {100.0 * self.energy:+.2g} % and the worn volume by "
-            f"{100.0 * self.volume:+.2g} %, estimated by half the step over the first {self.length:.0f} m."
+            f"{100.0 * self.volume:+.2g} %, estimated by half the step over the first {self.length:.0f} m.{self._advice}"
         )
+
+    @property
+    def _advice(self) -> str:
+        """What to do if the error is large: of first order, it falls with the step."""
+        worst = max(abs(self.energy), abs(self.volume))
+        if worst <= LARGEST_STEP_ERROR:
+            return ""
+        share = LARGEST_STEP_ERROR / worst
+        return f" For {100.0 * LARGEST_STEP_ERROR:g} % set recording.step to {share:.2g} times the step of this run."
 
 
 def worst(runs: list[Trust]) -> Trust:

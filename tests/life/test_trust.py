@@ -10,7 +10,7 @@ from contact.errors import ContactError
 from models.life import commands, declared_set, result, scenario
 from models.life.declared_set import Steps
 from models.life.scale import Workers
-from models.life.trust import TRUST, worst
+from models.life.trust import TRUST, StepError, worst
 from models.life.wear import Life
 from models.vehicle import report
 from models.vehicle.kernels.layout import Book
@@ -40,6 +40,11 @@ def test_seizure_and_wear_that_no_wheel_in_service_has_are_named_with_a_cure():
     for text in ("seizure at 34 %", "130 µm in a kilometre", "a millimetre in 7.69 km"):
         assert text in " ".join(said)
     assert all("Cures" in sentence and "usfd" in sentence for sentence in said)
+
+
+def test_a_large_error_of_the_step_is_told_with_the_step_that_cures_it():
+    assert StepError(0.01, -0.02, 40.0).sentence.endswith("over the first 40 m.")
+    assert "set recording.step to 0.4 times the step" in StepError(-0.03, -0.05, 40.0).sentence
 
 
 def test_a_law_is_not_advised_to_who_uses_it():
