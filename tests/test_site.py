@@ -49,7 +49,7 @@ def test_no_key_is_without_a_meaning_or_explained_by_its_type(keys):
     for row in rows(keys):
         meaning = row[3].strip(" |")
         assert meaning, row
-        assert not generated._is_type(meaning), row
+        assert not generated.is_type(meaning), row
 
 
 def test_a_group_of_keys_has_all_their_defaults(keys):
