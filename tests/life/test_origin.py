@@ -20,7 +20,10 @@ def digest(path):
 
 
 def test_every_file_of_a_scenario_has_its_hash(tmp_path):
-    (tmp_path / "t.csv").write_text("h\n" + "".join(f"{10 * s},0,0,0,0\n" for s in range(6)), encoding="utf-8")
+    (tmp_path / "t.csv").write_text(
+        "distance,alignment,vertical,cross_level,gauge\n" + "".join(f"{10 * s},0,0,0,0\n" for s in range(6)),
+        encoding="utf-8",
+    )
     path = tmp_path / "s.toml"
     path.write_text('name = "s"\nlength = 40.0\nspeed = 20.0\n[track]\nmeasured = "t.csv"\n', encoding="utf-8")
     vehicle = declared.find("wheelset")
