@@ -5,7 +5,8 @@
 A pose is a random lateral position, yaw, roll and load of S1002 on 60E1. Its time is the sum over its patches, the least of
 three runs. A second table has rough and flat gaps, which no profile has, with three caps of the iterations: the worst case.
 The normal problem is timed with a creep force law that takes next to no time: cold, when no call starts from
-another one, and warm, when the call is repeated. The whole contact is timed with the default methods.
+another one, and warm, when the call is repeated. The whole contact is timed with the default methods. The last table has
+whole pairs, with their search.
 """
 
 from __future__ import annotations
@@ -17,8 +18,9 @@ import numpy as np
 import contact
 from benchmarks.tables import read_options, table
 from contact.geometry import profile
-from contact.geometry.wheelset import Pair, Patch, Pose
+from contact.geometry.wheelset import Pair, Patch, Pose, Velocity
 from contact.kernels.normal.strip_halfspace import MAX_ITERATIONS
+from contact.pair import WheelRailPair
 from reference.random_cases import nearly_flat, noisy, two_lobed
 
 REPEATS = 3
@@ -75,6 +77,30 @@ def of_rough_gaps(count: int) -> str:
     return "\n".join((head, table(["max_iterations", "median", "99 %", "longest", "NOT_CONVERGED"], rows)))
 
 
+def of_pairs(count: int) -> str:
+    """Return the table of `WheelRailPair.solve`: search, forces and damage of `count` poses, one after the other.
+
+    Cold, `forget` is called before each pose.
+    """
+    one, velocity = WheelRailPair(Pair(profile.s1002(), profile.rail_60e1(inclination=1 / 40))), Velocity(20.0)
+    sides = np.linspace(-4e-3, 6e-3, count)
+    found = [Pose(y=y, z=one.solve(Pose(y=y), velocity, load=80e3).z) for y in sides]
+    rows = []
+    for title, given in (("height given", {}), ("load", {"load": 80e3}), ("vertical", {"vertical": 80e3})):
+        for start in ("warm", "cold"):
+            times = np.full(count, np.inf)
+            for _ in range(REPEATS):
+                for k, pose in enumerate(found):
+                    if start == "cold":
+                        one.forget()
+                    begin = time.perf_counter()
+                    one.solve(pose, velocity, **given)
+                    times[k] = min(times[k], 1e6 * (time.perf_counter() - begin))
+            rows.append([f"{title}, {start}", *(f"{v:.0f}" for v in (*np.percentile(times, [50, 95]), times.max()))])
+    head = f"\n`WheelRailPair.solve` from Python, default, {count} poses from -4 to 6 mm, 80 kN, µs\n"
+    return "\n".join((head, table(["what", "median", "95 %", "longest"], rows)))
+
+
 def main() -> None:
     """Print the tables."""
     found = poses(read_options(__doc__, poses=10_000).poses)
@@ -97,6 +123,7 @@ def main() -> None:
     )
     print(table(["what", "median", "95 %", "99.9 %", "longest", "mean with several patches"], rows))
     print(of_rough_gaps(500))
+    print(of_pairs(400))
 
 
 if __name__ == "__main__":

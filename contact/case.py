@@ -33,6 +33,18 @@ def cases(
     return made
 
 
+#: Members of a CASE record from the coefficient of friction to the heating, which lie side by side: those of a surface.
+_FIRST, _LAST = CASE.fields["mu"][1], CASE.fields["heating"][1] + 8  # type: ignore[index]
+SURFACE = slice(_FIRST, _LAST)
+
+
+def surface_bytes(friction: Friction) -> bytes:
+    """Return what `set_surface` writes at `SURFACE` of a CASE record, to be written often."""
+    made = np.zeros(1, CASE)
+    set_surface(made, friction, 0.0)
+    return made.tobytes()[SURFACE]
+
+
 def set_surface(made: Cases, friction: Friction, speed: ArrayLike) -> None:
     """Write friction and rolling speed [m/s] into the case records `made`."""
     for name, value in friction.members().items():

@@ -27,7 +27,7 @@ from contact.geometry import profile
 from contact.geometry.surfaces import Flat, SurfacePair, WheelSurface
 from contact.geometry.wheelset import Pair, Pose, Velocity
 from contact.ownership import OwnsArrays
-from contact.pair import HalfspacePair, RollerRig, WheelRailPair, over_poses
+from contact.pair import HalfspacePair, RollerRig, WheelRailPair, over_poses, solved
 from contact.solution import solution as solutions
 from contact.stress import Endurance
 from models.vehicle.coupling import OpenVehicle
@@ -310,15 +310,21 @@ def test_an_interrupted_call_leaves_its_object_usable():
         signal.signal(signal.SIGALRM, before)
 
 
-@pytest.mark.parametrize("name", ["x", "qx", "strips", "friction"])
-def test_two_threads_may_read_the_fields_of_one_solution(monkeypatch, name):
-    solution, both, make = contact.solve(GAP, Creepage(1e-3), load=8e4), Barrier(2), solutions._arrays
+@pytest.mark.parametrize("name", ["x", "qx", "strips", "friction", "force", "contacts", "damage"])
+def test_two_threads_may_read_one_solution(monkeypatch, name):
+    """Fields and patches are made when they are first read."""
+    of_pair = name in ("force", "contacts", "damage")
+    module, maker = (solved, "_made") if of_pair else (solutions, "_arrays")
+    make, both = getattr(module, maker), Barrier(2)
 
     def slow(*left):
         time.sleep(0.02)
         return make(*left)
 
-    monkeypatch.setattr(solutions, "_arrays", slow)
+    monkeypatch.setattr(module, maker, slow)
+    solution = (
+        WheelRailPair(pair()).solve(Pose(), load=8e4) if of_pair else contact.solve(GAP, Creepage(1e-3), load=8e4)
+    )
 
     def read():
         both.wait()

@@ -12,13 +12,14 @@ from contact.kernels.enumerations import Height, NoAnswer
 from contact.kernels.geometry.settle import DEEPEST
 from contact.kernels.records import GIVEN, SLOWEST
 from contact.ownership import OwnsArrays, one_thread
-from contact.plausibility import doubt_value
+from contact.plausibility import USUAL, doubt_value
 
 Side = Literal["right", "left"]
 
 _REFERENCES = 1e-6, 10.0  # [m/s]
 MAX_PENETRATION = 2e-3  # [m] that of a wheel under 10 MN; a larger value has a wrong unit
 _ROLLING, _IDEAL = Velocity(), Irregularity()
+_Y, _TURNED, _LOAD, _SPEED, _SLIP = (USUAL[name] for name in ("pose.y", "pose.yaw", "wheel load", "speed", "slip"))
 
 
 class Posed(OwnsArrays):
@@ -58,36 +59,58 @@ class Posed(OwnsArrays):
         `station` and `rotation` go to the search itself. They are those of
         `contact.geometry.surfaces.SurfacePair.contacts`; profiles that are constant along the way do not depend on them.
         """
+        numbers = self.motion_of(pose, velocity, irregularity)
+        self.set_way(station, rotation)
+        return np.array([numbers], GIVEN)[0]
+
+    def motion_of(self, pose: Pose, velocity: Velocity | None, irregularity: Irregularity | None) -> tuple[float, ...]:
+        """Return the members of the record GIVEN of a motion, in their order."""
         velocity, rail = velocity or _ROLLING, irregularity or _IDEAL
-        for name, argument, kind in (
-            ("pose", pose, Pose),
-            ("velocity", velocity, Velocity),
-            ("irregularity", rail, Irregularity),
-        ):
-            if not isinstance(argument, kind):
-                raise ContactError(f"{name} = {argument!r} is not a contact.geometry.wheelset.{kind.__name__}")
-        if velocity.forward < 0.0 and not self.rolls_back:
+        if not (isinstance(pose, Pose) and isinstance(velocity, Velocity) and isinstance(rail, Irregularity)):
+            for name, argument, kind in (
+                ("pose", pose, Pose),
+                ("velocity", velocity, Velocity),
+                ("irregularity", rail, Irregularity),
+            ):
+                if not isinstance(argument, kind):
+                    raise ContactError(f"{name} = {argument!r} is not a contact.geometry.wheelset.{kind.__name__}")
+        forward, spin = velocity.forward, velocity.spin
+        if forward < 0.0 and not self.rolls_back:
             raise ContactError(
-                f"velocity.forward = {velocity.forward:g} is negative: on surfaces that change along the way a wheel rolls "
+                f"velocity.forward = {forward:g} is negative: on surfaces that change along the way a wheel rolls "
                 "forward only; turn the rail and the wheelset by 180 degrees"
             )
-        spin = -velocity.forward / self.nominal_radius if velocity.spin is None else velocity.spin
-        given = np.zeros(1, GIVEN)[0]
-        given.y, given.z, given.roll, given.yaw = pose.y, pose.z, pose.roll, pose.yaw
-        given.vx, given.vy, given.vz = velocity.forward, velocity.y, velocity.z
-        given.roll_rate, given.yaw_rate, given.spin = velocity.roll, velocity.yaw, spin
-        given.rail_y, given.rail_z, given.rail_roll = rail.y, rail.z, rail.roll
-        given.rail_vy, given.rail_vz, given.rail_roll_rate = rail.y_rate, rail.z_rate, rail.roll_rate
-        motion = self.space.motion[0]
-        motion.station, motion.rotation = require_number("station", station), require_number("rotation", rotation)
-        return given
+        return (
+            *(pose.y, pose.z, pose.roll, pose.yaw),
+            *(forward, velocity.y, velocity.z, velocity.roll, velocity.yaw),
+            -forward / self.nominal_radius if spin is None else spin,
+            *(rail.y, rail.z, rail.roll, rail.y_rate, rail.z_rate, rail.roll_rate),
+        )
+
+    def set_way(self, station: float, rotation: float) -> None:
+        """Set the position along the rail [m] and the angle of the wheel [rad] for the search."""
+        motion = self.space.motion
+        motion["station"][0] = require_number("station", station)
+        motion["rotation"][0] = require_number("rotation", rotation)
+
+    def _is_usual(self, pose: Pose, velocity: Velocity | None, load: float | None) -> bool:
+        """Return whether `doubt` surely finds nothing. It asks all at once, since this is done at every call."""
+        if abs(pose.y) > _Y.largest or abs(pose.roll) > _TURNED.largest or abs(pose.yaw) > _TURNED.largest:
+            return False
+        if load and not _LOAD.least <= load <= _LOAD.largest:
+            return False
+        if velocity is None:
+            return True
+        forward, spin = velocity.forward, velocity.spin
+        rolls = spin is None or (forward > 0.0 and abs(1.0 + spin * self.nominal_radius / forward) <= _SLIP.largest)
+        return rolls and abs(forward) <= _SPEED.largest
 
     def doubt(self, pose: Pose, velocity: Velocity | None, load: float | None, name: str = "load") -> None:
         """Warn of a motion and a load [N] that no wheelset has. Call it in the function that the user calls.
 
         It warns at one call only, because a run in time may have a small load in many steps.
         """
-        if self._doubted:
+        if self._doubted or self._is_usual(pose, velocity, load):
             return
         found = [doubt_value(f"pose.{coordinate}", getattr(pose, coordinate)) for coordinate in ("y", "roll", "yaw")]
         if load is not None:

@@ -1,64 +1,87 @@
-"""The answer of the kernel of a pair as a `PairSolution`."""
+"""The answer of the kernel of a pair as a `PairSolution`, made when it is read."""
 
 from __future__ import annotations
 
-from types import SimpleNamespace
+import struct
+from operator import itemgetter
+from typing import Any
 
 import numpy as np
 
 from contact.creepage import Creepage
 from contact.kernels.arrays import Bench
+from contact.kernels.records import CONTACT, TOTAL
 from contact.pair.solution import Contact, PairDamage, PairSolution
 from contact.solution import PairJacobian, Status
 
-
-def of_kernel(total: SimpleNamespace, bench: Bench, n: int, spin: float, jacobian: PairJacobian | None) -> PairSolution:
-    """Return the solution that a kernel has left in `bench`, with the numbers `total` of its record TOTAL and `n` patches."""
-    return PairSolution(
-        force=np.array([total.Fx, total.Fy, total.Fz]),
-        moment=np.array([total.Mx, total.My, total.Mz]),
-        Q=total.Q,
-        Y=total.Y,
-        Y_over_Q=total.Y_over_Q,
-        used_friction=total.used_friction,
-        z=total.z,
-        contacts=tuple(_contact(numbers(row)) for row in bench.contacts[:n]),
-        max_pressure=total.pmax,
-        area=total.area,
-        slip_area=total.slip_area,
-        power_per_metre=total.power,
-        damage=PairDamage(*(getattr(total, name) for name in PairDamage._fields)),
-        status=Status(total.status),
-        gap_error=total.gap_error,
-        deflection=(float(bench.rail[0].dy), float(bench.rail[0].dz)),
-        spin=spin,
-        jacobian=jacobian,
-    )
+_STATES = {int(status): status for status in Status}
+#: Member of TOTAL → attribute of a solution, for the numbers that are called otherwise.
+_RENAMED = {"pmax": "max_pressure", "power": "power_per_metre"}
+_NAMES = tuple(_RENAMED.get(name, name) for name in TOTAL.names or ())
+_PLAIN = [name for name in _NAMES if name in PairSolution.__dataclass_fields__ and name not in ("status", "damage")]
+_PICK = itemgetter(*(_NAMES.index(name) for name in _PLAIN))
+_STATUS = _NAMES.index("status")
+_DAMAGE = itemgetter(*(_NAMES.index(name) for name in PairDamage._fields))
 
 
-def numbers(row: np.record) -> SimpleNamespace:
-    """Return a record with numbers of Python: numpy takes 2 µs for each member, more than the kernel for all."""
-    return SimpleNamespace(**dict(zip(row.dtype.names or (), row.item(), strict=True)))
+def _reader(dtype: np.dtype) -> struct.Struct:
+    """Return what reads a record as numbers of Python: numpy takes 2 µs for each member."""
+    return struct.Struct("".join("d" if dtype[name].kind == "f" else "q" for name in dtype.names or ()))
 
 
-def _contact(found: SimpleNamespace) -> Contact:
+_TOTAL, _CONTACT = _reader(TOTAL), _reader(CONTACT)
+_KEYS = CONTACT.names or ()
+
+
+class Answer:
+    """Reads the records that the kernel fills in `bench`."""
+
+    def __init__(self, bench: Bench) -> None:
+        self._total, self._contacts = (each.view(np.uint8).data for each in (bench.total, bench.contacts))
+        self._deflection = bench.rail["dy"], bench.rail["dz"]
+
+    def solution(self, n: int, spin: float, jacobian: PairJacobian | None) -> PairSolution:
+        """Return the solution with `n` patches. Its arrays, patches and damage are made from copies when one is first read."""
+        total = _TOTAL.unpack_from(self._total)
+        y, z = self._deflection
+        numbers = dict(zip(_PLAIN, _PICK(total), strict=True))
+        numbers |= {
+            "status": _STATES[total[_STATUS]],
+            "deflection": (float(y[0]), float(z[0])),
+            "spin": spin,
+            "jacobian": jacobian,
+        }
+        return PairSolution.later(numbers, _made, total, bytes(self._contacts[: n * CONTACT.itemsize]))
+
+
+def _made(total: tuple[Any, ...], contacts: bytes) -> dict[str, Any]:
+    """Return force, moment, patches and damage."""
+    return {
+        "force": np.array(total[:3]),
+        "moment": np.array(total[3:6]),
+        "contacts": tuple(_contact(dict(zip(_KEYS, row, strict=True))) for row in _CONTACT.iter_unpack(contacts)),
+        "damage": PairDamage(*_DAMAGE(total)),
+    }
+
+
+def _contact(found: dict[str, Any]) -> Contact:
     return Contact(
-        N=found.N,
-        Fx=found.Fx,
-        Fy=found.Fy,
-        Mx=found.Mx,
-        My=found.My,
-        Mz=found.Mz,
-        position=(found.x, found.y, found.z),
-        angle=found.angle,
-        area=found.area,
-        max_pressure=found.pmax,
-        creepage=Creepage(found.longitudinal, found.lateral, found.spin),
-        approach=found.approach,
-        on_rail=(found.rail_y, found.rail_z),
-        on_wheel=(found.wheel_y, found.wheel_z),
-        used_friction=found.used_friction,
-        status=Status(found.status),
-        gap_error=found.gap_error,
-        pitch=found.pitch,
+        N=found["N"],
+        Fx=found["Fx"],
+        Fy=found["Fy"],
+        Mx=found["Mx"],
+        My=found["My"],
+        Mz=found["Mz"],
+        position=(found["x"], found["y"], found["z"]),
+        angle=found["angle"],
+        area=found["area"],
+        max_pressure=found["pmax"],
+        creepage=Creepage(found["longitudinal"], found["lateral"], found["spin"]),
+        approach=found["approach"],
+        on_rail=(found["rail_y"], found["rail_z"]),
+        on_wheel=(found["wheel_y"], found["wheel_z"]),
+        used_friction=found["used_friction"],
+        status=_STATES[found["status"]],
+        gap_error=found["gap_error"],
+        pitch=found["pitch"],
     )

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+import struct
 from dataclasses import replace
 from typing import Any
 
 import numpy as np
 
 from contact import workspace
-from contact.case import cases, set_surface
+from contact.case import SURFACE, cases, surface_bytes
 from contact.core import pack
 from contact.damage import DamageParameters
 from contact.errors import ContactError, require_number
@@ -18,12 +19,12 @@ from contact.geometry.posed import Posed
 from contact.geometry.records import Irregularity, Pose, Velocity
 from contact.geometry.surfaces import SurfacePair
 from contact.geometry.wheelset import Pair
-from contact.kernels.arrays import Aside, Bench, Ledger, Search, SurfaceSearch
+from contact.kernels.arrays import Aside, Bench, Given, Ledger, Search, SurfaceSearch
 from contact.kernels.enumerations import Height, NoAnswer
 from contact.kernels.flexible import solve_on_profiles, solve_on_surfaces
 from contact.kernels.normal.strip_halfspace import MAX_ITERATIONS
 from contact.kernels.pair_conditions import derive_on_profiles, derive_on_surfaces
-from contact.kernels.records import LARGEST_ANGLE
+from contact.kernels.records import GIVEN, LARGEST_ANGLE
 from contact.kernels.rows import Moved
 from contact.material import STEEL, Material
 from contact.notebook import figures
@@ -32,7 +33,7 @@ from contact.pair.driven import drive
 from contact.pair.elastic_rail import ElasticRail
 from contact.pair.motion import AnyPair
 from contact.pair.solution import PairSolution
-from contact.pair.solved import numbers, of_kernel
+from contact.pair.solved import Answer
 from contact.plausibility import doubt_alike, doubt_gap
 from contact.registry import DEFAULT_NORMAL, DEFAULT_TANGENTIAL, lookup
 from contact.solution import PairJacobian
@@ -43,6 +44,8 @@ from contact.solver import N_ELEMENTS, N_STRIPS, require_max_iterations, require
 _RIGID, _STRAIGHT = ElasticRail(), WheelOffset()
 #: Columns of the derivatives, with and without the amount that prescribes the height.
 _ALL = np.arange(len(Moved))
+_PACK_MOTION = struct.Struct(f"{GIVEN.itemsize // 8}d").pack_into
+_FORWARD, _SPIN = (list(GIVEN.names or ()).index(name) for name in ("vx", "spin"))
 _WITHOUT_AMOUNT = np.delete(_ALL, Moved.AMOUNT)
 
 
@@ -132,6 +135,12 @@ class WheelRailPair(AnyPair):
         self._packed = pack(Bench[Search] if constant else Bench[SurfaceSearch], self.bench)
         self._gap_limit = method.gap_limit
         self._rail, self._offset = _RIGID, _STRAIGHT
+        self._answer = Answer(self.bench)
+        self._motion = np.zeros(1, GIVEN)
+        self._packed_motion = pack(Given, self._motion[0])
+        self._bytes = self._motion.view(np.uint8).data, self.bench.case.view(np.uint8).data
+        self._speed, self._distance = self.bench.case["speed"], self.bench.ledger.settings["distance"]
+        self._surface: tuple[object, bytes] = (None, b"")
         self.bench.damage_parameters[:] = (damage or DamageParameters()).record(material, 1.0, 1.0)
 
     def _kept(self) -> Any:
@@ -250,13 +259,18 @@ class WheelRailPair(AnyPair):
             mode, amount = Height.VERTICAL, require_number("vertical", vertical, 0.0)
         else:
             raise ContactError(f"vertical = {vertical} excludes load = {load} and penetration = {penetration}")
-        self.bench.ledger.settings["distance"] = require_number("distance", distance, 0.0)
+        self._distance[0] = require_number("distance", distance, 0.0)
         self._set_rail(_RIGID if rail is None else rail)
         self._set_offset(_STRAIGHT if offset is None else offset)
-        turned = rotation + self._offset.pitch
-        given = within(self.pair.given)(pose, velocity, irregularity, station=station, rotation=turned)
-        set_surface(self.bench.case, as_friction(friction), abs(float(given.vx)))
-        code = self._solve(mode, amount, given, self._packed)
+        given = self.pair.motion_of(pose, velocity, irregularity)
+        self.pair.set_way(station, rotation + self._offset.pitch)
+        if friction is not self._surface[0]:
+            law = as_friction(friction)
+            self._surface = law if law is friction or type(friction) is not float else friction, surface_bytes(law)
+        of_motion, of_case = self._bytes
+        _PACK_MOTION(of_motion, 0, *given)
+        of_case[SURFACE], self._speed[0] = self._surface[1], abs(given[_FORWARD])
+        code = self._solve(mode, amount, self._packed_motion, self._packed)
         if code == NoAnswer.TURNED:
             raise ContactError(
                 f"offset.roll = {self._offset.roll:g} and offset.yaw = {self._offset.yaw:g}: with the wheelset's roll and "
@@ -271,10 +285,10 @@ class WheelRailPair(AnyPair):
             self.pair.doubt(pose, velocity, load)
         else:
             self.pair.doubt(pose, velocity, vertical, "vertical")
-        jacobian = self._derive(mode, given, load, penetration, vertical) if derivatives else None
-        total = numbers(self.bench.total[0])
-        doubt_gap(total.gap_error, self._gap_limit, self.pair.told)
-        return of_kernel(total, self.bench, code, float(given.spin), jacobian)
+        jacobian = self._derive(mode, self._motion[0], load, penetration, vertical) if derivatives else None
+        found = self._answer.solution(code, given[_SPIN], jacobian)
+        doubt_gap(found.gap_error, self._gap_limit, self.pair.told)
+        return found
 
     def _derive(
         self, mode: int, given: np.record, load: float | None, penetration: float | None, vertical: float | None

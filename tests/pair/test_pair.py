@@ -9,6 +9,7 @@ import pytest
 import contact
 from contact import ContactError, Status
 from contact.damage import evaluate
+from contact.friction import Friction
 from contact.geometry import profile
 from contact.geometry.wheelset import Irregularity, Pair, Pose, Velocity
 from contact.pair import WheelRailPair
@@ -377,3 +378,36 @@ def test_an_argument_of_a_wrong_type_is_a_contact_error(arguments, options, mess
 def test_a_speed_in_place_of_a_velocity_is_a_contact_error():
     with pytest.raises(ContactError, match=r"velocity = 20.0 is not a contact.geometry.wheelset.Velocity"):
         make().solve(Pose(), 20.0, load=80e3)
+
+
+def test_friction_and_speed_are_those_of_the_call_whatever_was_given_before():
+    """The pair keeps the last surface, since most calls have the same."""
+    one, speed = WheelRailPair(Pair(profile.s1002(), profile.rail_60e1())), Velocity(20.0, yaw=0.1)
+    falling = Friction(0.4, 0.1, half_speed=0.05, law="rational")
+    changing = np.array(0.3)
+
+    def forces(friction, velocity=speed, pair=None):
+        pair = pair or WheelRailPair(one.pair)
+        pair.forget()
+        return pair.solve(Pose(yaw=4e-3), velocity, load=8e4, friction=friction).force.tolist()
+
+    for friction in (0.3, 0.3, falling, 0.1, Friction(0.1), np.float64(0.3), 1, changing, falling):
+        assert forces(friction, pair=one) == forces(friction)
+    assert forces(falling, Velocity(5.0, yaw=0.1), one) == forces(falling, Velocity(5.0, yaw=0.1))
+    before = forces(changing, pair=one)
+    changing[...] = 0.1
+    assert forces(changing, pair=one) == forces(0.1) != before
+
+
+def test_a_solution_that_is_read_late_is_that_of_its_call():
+    one = WheelRailPair(Pair(profile.s1002(), profile.rail_60e1()))
+    first = one.solve(Pose(y=1e-3), load=8e4)
+    other = one.solve(Pose(y=-3e-3), load=4e4)
+    assert "contacts" not in first.__dict__
+    loads = [solution.contacts[0].N for solution in (first, other)]
+    assert loads == pytest.approx([8e4, 4e4], rel=0.02)
+    assert first.force[2] == -first.Q
+    assert replace(first, z=1.0).contacts == first.contacts
+    assert {"contacts", "force", "moment", "damage", "Q"} <= set(dir(other))
+    with pytest.raises(AttributeError, match="no attribute 'pressure'"):
+        first.pressure  # noqa: B018

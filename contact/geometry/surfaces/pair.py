@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -191,12 +191,10 @@ class SurfacePair(Posed):
     def _apart(self, pose: Pose) -> ContactError:
         return ContactError(f"pose.y = {pose.y:g}: the {self.side} wheel does not lie above its rail")
 
-    @one_thread
-    def given(self, *args: Any, station: float = 0.0, **options: Any) -> np.record:
-        """Return the motion as a record. Parameters as for `Posed.given`."""
-        made = within(super().given)(*args, station=station, **options)
+    def set_way(self, station: float, rotation: float) -> None:
+        """Set the position along the rail [m] and the angle of the wheel [rad] for the search."""
+        super().set_way(station, rotation)
         within(self.follow)(station)
-        return made
 
     @one_thread
     def follow(self, station: float) -> None:
