@@ -22,27 +22,27 @@ from contact.inp.digits import digit_table, with_part
 _MOST_UNCOMPARED = 50
 #: Times of CONTACT [s], built with gfortran -O2 and MKL, one thread, the whole run.
 CONTACT_TIMES = {
-    "bentall": 5.9,
-    "carter2d": 0.06,
-    "catt_to_cart": 2.3,
-    "cattaneo": 0.02,
-    "conformal": 0.25,
-    "ertz_temperature": 1.06,
-    "fastsim": 1.32,
-    "mbench_a22_kpec": 1.44,
-    "mbench_a22_left": 1.75,
-    "mbench_a22_right": 1.83,
-    "mbench_a22_varfric": 3.7,
-    "plastic_3bl": 0.15,
-    "spence35": 1.5,
-    "subsurf": 0.35,
-    "tractcurv": 14.6,
-    "veldep_fric": 0.60,
-    "visc_cylindr": 0.13,
-    "wheelflat": 16.7,
-    "carter2d_100": 3.1,
-    "carter2d_800": 23.5,
-    "mbench_100kn_dx05_zpos": 3.9,
+    "examples/bentall": 5.9,
+    "examples/carter2d": 0.06,
+    "examples/catt_to_cart": 2.3,
+    "examples/cattaneo": 0.02,
+    "examples/conformal": 0.25,
+    "examples/ertz_temperature": 1.06,
+    "examples/fastsim": 1.32,
+    "examples/mbench_a22_kpec": 1.44,
+    "examples/mbench_a22_left": 1.75,
+    "examples/mbench_a22_right": 1.83,
+    "examples/mbench_a22_varfric": 3.7,
+    "examples/plastic_3bl": 0.15,
+    "examples/spence35": 1.5,
+    "examples/subsurf": 0.35,
+    "examples/tractcurv": 14.6,
+    "examples/veldep_fric": 0.60,
+    "examples/visc_cylindr": 0.13,
+    "examples/wheelflat": 16.7,
+    "perfc_test/carter2d_100": 3.1,
+    "perfc_test/carter2d_800": 23.5,
+    "perfc_test/mbench_100kn_dx05_zpos": 3.9,
 }
 HEAD = (
     "| file | cases | run | compared | agree | refused | force | pressure | approach | time here [s] | CONTACT [s] |\n"
@@ -56,7 +56,7 @@ def row(path: Path) -> str:
     try:
         cases = inp.read(path)
     except ContactError as error:
-        return f"| {name} | – | – | – | – | {str(error).split(': ', 1)[-1]} | | | | | |\n"
+        return f"| {path.parent.name}/{name} | – | – | – | – | {str(error).split(': ', 1)[-1]} | | | | | |\n"
     reference = path.with_suffix(".ref_out")
     chosen = cases if reference.exists() or len(cases) <= _MOST_UNCOMPARED else cases[:_MOST_UNCOMPARED]
     start = time.process_time()
@@ -75,11 +75,21 @@ def row(path: Path) -> str:
         for k, names in enumerate(groups):
             errors = [one.error for one in differences if one.name in names and math.isfinite(one.error)]
             worst[k] = f"{max(errors):.1e}" if errors else ""
-    there = CONTACT_TIMES.get(name)
+    there = CONTACT_TIMES.get(f"{path.parent.name}/{name}")
     whole = len(chosen) == len(cases)
     theirs = "" if there is None or not whole else f"{there:g}"
     shown = f"{len(cases)}" if whole else f"{len(chosen)} of {len(cases)}"
-    cells = [name, shown, ran, compared or "", agree if compared else "", told, *worst, f"{taken:.2f}", theirs]
+    cells = [
+        f"{path.parent.name}/{name}",
+        shown,
+        ran,
+        compared or "",
+        agree if compared else "",
+        told,
+        *worst,
+        f"{taken:.2f}",
+        theirs,
+    ]
     return f"| {' | '.join(map(str, cells))} |\n"
 
 

@@ -80,6 +80,8 @@ class Stepper:
         self.influence = Influence(self.shape, self.dx, self.dy, material, self.soft)
         self.coupling = Coupling(self.shape, self.dx, self.dy, material) if material.coupling != 0.0 else None
         self._turns, self.progress = turns, progress
+        #: Rigid slip of each element besides that of the motion, shape (2, ny, nx).
+        self.slip: Array | float = 0.0
 
     def fresh(self) -> State:
         """Return the state of a contact that has not been touched."""
@@ -128,7 +130,7 @@ class Stepper:
             if local:
                 touching, time = p > 0.0, self._time(distance)
                 wanted = (
-                    self.law.along_rows(velocity * slip, touching, self.dx / max(self.speed, 1e-300))
+                    self.law.along_rows(velocity * slip, touching, self._time(self.dx), self._warm(found))
                     if steady
                     else self.law.followed(velocity * slip, before.mu, time)
                 )
@@ -171,6 +173,13 @@ class Stepper:
         for k in (0, 1):
             given[k] = float(u[k]) if force[k] is not None else given[k]
         return Outcome(replace(normal, p=p), found, Creepage(given[0], given[1], motion.spin), sheared, kept, converged)
+
+    def _warm(self, found: Tangential) -> Array | None:
+        """Return what the temperature adds to the coefficient of friction of each element [-]."""
+        if self.law.warmth is None:
+            return None
+        heat = -(found.qx * found.sx + found.qy * found.sy) * self.speed
+        return self.law.warmth.added(self.law.warmth.rise(np.maximum(heat, 0.0), self.dx, max(self.speed, 1e-300)))
 
     def _time(self, distance: float) -> float:
         return 1.0 if distance == 0.0 else distance / max(self.speed, 1e-300)
@@ -276,7 +285,7 @@ class Stepper:
         return Tangential(q[0], q[1], s[0], s[1], stick, newton.iterations, newton.products, residual, converged), u
 
     def _steady(self, bound: Array, rows: Bent, p: Array) -> tuple[Newton, Array]:
-        w = rigid_slip(self.x, rows, OFFSET * self.dx)
+        w = rigid_slip(self.x, rows, OFFSET * self.dx) + self.slip
         if self.coupling is not None:
             w = w + self.coupling.slip(p, p, p)
         steps = self.dx, self.dy
@@ -285,7 +294,7 @@ class Stepper:
     def _in_time(self, bound: Array, rows: Bent, p: Array, state: State, distance: float) -> tuple[Newton, Array]:
         per_metre = 1.0 / distance if distance > 0.0 else 1.0
         before, reach = self.before(state, p, distance)
-        w = reach * rigid_slip(self.x, rows, OFFSET * distance) - per_metre * before
+        w = reach * (rigid_slip(self.x, rows, OFFSET * distance) + self.slip) - per_metre * before
         if self.coupling is not None:
             w = w + per_metre * (self.coupling.displacement(p) - self.coupling.displacement(state.p, distance))
         h = self.influence

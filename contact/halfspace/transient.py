@@ -20,15 +20,16 @@ from dataclasses import replace
 from typing import Any
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from contact.arrays import Array
 from contact.creepage import Creepage, as_creepage
 from contact.errors import ContactError, require_number, require_pair
-from contact.friction import Friction, as_friction
+from contact.friction import Friction
 from contact.given_force import wanted_force
 from contact.halfspace.bent import Bent
 from contact.halfspace.gap import Division, Gap
-from contact.halfspace.local_law import LocalLaw
+from contact.halfspace.local_law import LocalLaw, of_each_element
 from contact.halfspace.norm import Normal, norm
 from contact.halfspace.solution import GridSolution, assemble
 from contact.halfspace.solve import grid_of, status_of
@@ -112,7 +113,10 @@ class Transient(OwnsArrays):
             raise ContactError(f"exactly one of load and approach is needed; load = {load}, approach = {approach}")
         if layer is not None and not isinstance(layer, ThirdBody):
             raise ContactError(f"layer = {layer!r} is not a contact.ThirdBody")
-        self._amount = _amount(load, approach)
+        if load is not None:
+            self._amount = {"load": require_number("load", load, 0.0, open_minimum=True)}
+        else:
+            self._amount = {"approach": require_number("approach", approach)}
         self._set_friction(friction)
         self.material = material
         self.speed, self._progress = require_number("speed", speed, 0.0), progress
@@ -139,21 +143,7 @@ class Transient(OwnsArrays):
 
     def _set_friction(self, friction: float | Friction | LocalLaw) -> None:
         """Set the law of friction; `law` is that of each element."""
-        if isinstance(friction, LocalLaw):
-            self.law, self.friction, self._local = friction, Friction(float(friction.static.max())), True
-            return
-        self.friction = law = as_friction(friction)
-        if law.velocity == "greatest" or law.hot_factor < 1.0:
-            raise ContactError(
-                "friction: a step takes no law over the greatest velocity or the temperature; allowed: global, local"
-            )
-        self._local = law.velocity == "local" and law.law != "coulomb"
-        kinetic = law.static if law.kinetic is None else law.kinetic
-        self.law = (
-            LocalLaw(kinetic, ((law.law, law.static - kinetic, law.half_speed),))
-            if self._local
-            else LocalLaw(law.static)
-        )
+        self.law, self.friction, self._local = of_each_element(friction)
 
     @one_thread
     def shift(
@@ -267,13 +257,28 @@ class Transient(OwnsArrays):
         self._state = state
 
     @one_thread
-    def change(self, *, friction: float | Friction | LocalLaw | None = None, speed: float | None = None) -> None:
-        """Set another law of friction or rolling speed [m/s] for the steps that follow."""
+    def change(
+        self,
+        *,
+        friction: float | Friction | LocalLaw | None = None,
+        speed: float | None = None,
+        slip: ArrayLike | None = None,
+    ) -> None:
+        """Set another law of friction, rolling speed [m/s] or rigid slip for the steps that follow.
+
+        `slip` is added to the rigid slip of each element, over V, in a shift in metres: shape (2, ny, nx); 0 is none.
+        """
         if friction is not None:
             self._set_friction(friction)
         if speed is not None:
             self.speed = require_number("speed", speed, 0.0)
-        self._stepper = self._prepared()
+        last, self._stepper = self._stepper.slip, self._prepared()
+        self._stepper.slip = last
+        if slip is not None:
+            wanted, field = (2, *self._grid.h.shape), np.asarray(slip, dtype=np.float64)
+            if field.shape not in ((), wanted) or not np.isfinite(field).all():
+                raise ContactError(f"slip has shape {field.shape}; finite numbers of shape {wanted} are needed")
+            self._stepper.slip = field
 
     @property
     def displacement(self) -> tuple[Array, Array]:
@@ -367,6 +372,8 @@ class Transient(OwnsArrays):
         factor = friction.factor(grid.y)[:, None] if friction.gauge_factor != 1.0 else 1.0
         given = (None, None) if force is None else wanted_force(force)
         self._stepper.progress = self._progress
+        if self.law.warmth is not None and not math.isinf(distance):
+            raise ContactError("friction.warmth: a step follows no temperature; allowed: roll_on")
         outcome = self._stepper.solve(self._state, motion, distance, self._press, factor, mu, given, sliding)
         self._state = outcome.state
         normal, found = outcome.normal, outcome.tangential
@@ -391,9 +398,3 @@ class Transient(OwnsArrays):
             tangential="halfspace",
             layer=outcome.sheared,
         )
-
-
-def _amount(load: float | None, approach: float | None) -> dict[str, float]:
-    if load is not None:
-        return {"load": require_number("load", load, 0.0, open_minimum=True)}
-    return {"approach": require_number("approach", approach)}

@@ -82,6 +82,8 @@ def _friction(case: Case) -> Friction:
         raise refuse(case, "strips", "V = 3")
     if kind == 0:
         return Friction(case["FSTAT"])
+    if kind == 6:
+        raise refuse(case, "temperature", "L = 6")
     name, prefix = _LAWS[kind]
     if case[f"{prefix}2"] != 0.0 or case["MEMDST"] > 0.0:
         raise refuse(case, "strips", "friction of two terms or with memory")

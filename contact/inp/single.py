@@ -13,6 +13,7 @@ from contact.creepage import Creepage
 from contact.damage.temperature import flash_temperature
 from contact.halfspace import GridSolution, LocalLaw, Transient, norm
 from contact.halfspace.influence import Influence
+from contact.halfspace.local_law import Warmth
 from contact.halfspace.third_body import ThirdBody
 from contact.inp import simplified
 from contact.inp.case import Case
@@ -35,6 +36,13 @@ def require_supported(case: Case, fast: bool = False) -> None:
     for reason, wrong, what in (
         ("given pressure", digits["B"] in (2, 3) and digits["M"] != 3, f"B = {digits['B']} with M = {digits['M']}"),
         ("simplified bodies", digits["M"] == 3 and digits["B"] not in (2, 3) and not fast, f"B = {digits['B']}"),
+        (
+            "rigid slip of each element",
+            (fast and digits["E"] != 0)
+            or (digits["M"] == 3 and digits["E"] != 0)
+            or (digits["E"] in (2, 3) and digits["T"] == 2),
+            f"E = {digits['E']}",
+        ),
         ("damping", digits["M2"] == 2 and any(case[name] for name in ("CDAMPN", "CDAMPT")), "M2 = 2"),
         ("direction", digits["T"] in (2, 3) and abs(case["FACPHI"] - 1.0 / 6.0) > 1e-9, "FACPHI"),
         (
@@ -67,6 +75,15 @@ def law(case: Case, rows: int, backwards: bool) -> LocalLaw:
     kind = case["LAW"]
     if kind == 0:
         return LocalLaw(column("FSTAT"))
+    if kind == 6:
+        constants = thermal(case)
+        if constants is None:
+            raise refuse(case, "temperature", "L = 6 with unlike bodies")
+        if case["ROWS"] != 0:
+            raise refuse(case, "temperature", "L = 6 with V = 3")
+        mean = 0.5 * (case["BKTEMP1"] + case["BKTEMP2"])
+        warmth = Warmth(case["DFHEAT"], case["TREF"], case["DTHEAT"], mean, constants)
+        return LocalLaw(case["FREF"], (), case["MEMDST"], case["MEM_S0"], warmth)
     prefix = {2: "FLIN", 3: "FRAT", 4: "FEXP"}[kind]
     names = {2: ("linear", "linear"), 3: ("rational", "rational_square"), 4: ("exponential", "exponential")}[kind]
     terms = tuple(
@@ -156,6 +173,7 @@ class Single:
     def _step(self, case: Case, contact: Transient, ground: Bed, bodies: Material, backwards: bool) -> GridSolution:
         """Return the solution of the case's step, in our signs and axes."""
         digits, sign = case.digits, 1.0 if backwards else -1.0
+        contact.change(slip=_extra_slip(case, ground, sign))
         if digits["T"] == 0:
             contact.change(friction=0.0)
             return contact.shift()
@@ -246,6 +264,27 @@ def _fields(case: Case, contact: Transient, ground: Bed, s: GridSolution, sign: 
     return found | {"shear_x": inner(shear[0]), "shear_y": inner(shear[1])}
 
 
+def _extra_slip(case: Case, ground: Bed, sign: float) -> Array | float:
+    """Return the rigid slip of E = 2, 3, 9 besides that of the creepages, on our grid and in our signs."""
+    kind = case.digits["E"]
+    slip = np.zeros((2, ground.y.size, ground.x.size))
+    if "EXRHS" in case.values and kind in (1, 9):
+        numbers = np.asarray(case["EXRHS"])
+        if numbers.size != slip.size:
+            raise refuse(case, "input", f"EXRHS has {numbers.size} numbers; {slip.size} are needed")
+        slip[:] = numbers.reshape(ground.y.size, ground.x.size, 2).transpose(2, 0, 1)
+    elif kind == 2:  # the spin acts along x only
+        ahead = -sign * ground.dx / 6.0 if case.digits["T"] == 3 else 0.0
+        slip[1] = -case["CPHI"] * (ground.x - case["SPINXO"] + ahead)
+    elif kind == 3:
+        slip[0] = case["CPHI"] * (ground.y - case["SPINYO"])[:, None]
+    if not slip.any():
+        return 0.0
+    turn = slice(None, None, -1 if sign > 0.0 else 1)
+    ours = -1.0 if case.digits["T"] == 1 else sign
+    return ours * np.pad(slip, ((0, 0), (1, 1), (1, 1)))[:, turn, turn]
+
+
 def _work(solution: GridSolution) -> float:
     """Return the work of friction and of plastic shear, per metre rolled [N] or of a shift [J]."""
     layer = solution.layer
@@ -275,9 +314,16 @@ def _energy(contact: Transient, solution: GridSolution) -> float:
 
 def _temperature(case: Case, solution: GridSolution) -> dict[str, float]:
     """Return the highest temperature [°C] if both bodies have the same thermal constants."""
-    pairs = [(case[f"{name}1"], case[f"{name}2"]) for name in ("HEATCP", "LAMBDA", "DENS")]
-    if any(not math.isclose(one, other, rel_tol=1e-6) for one, other in pairs) or not solution.p.any():
+    constants = thermal(case)
+    if constants is None or not solution.p.any():
         return {}
-    thermal = Thermal(pairs[1][0], pairs[2][0], pairs[0][0])
     mean = 0.5 * (case["BKTEMP1"] + case["BKTEMP2"])
-    return {"MAX(T1,T2)": mean + float(flash_temperature(solution, thermal).max(initial=0.0))}
+    return {"MAX(T1,T2)": mean + float(flash_temperature(solution, constants).max(initial=0.0))}
+
+
+def thermal(case: Case) -> Thermal | None:
+    """Return the thermal constants of both bodies; None if they differ."""
+    pairs = [(case[f"{name}1"], case[f"{name}2"]) for name in ("HEATCP", "LAMBDA", "DENS")]
+    if any(not math.isclose(one, other, rel_tol=1e-6) for one, other in pairs):
+        return None
+    return Thermal(pairs[1][0], pairs[2][0], pairs[0][0])

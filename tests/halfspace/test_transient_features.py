@@ -7,6 +7,7 @@ import pytest
 
 import contact
 from contact.halfspace import Gap, LocalLaw, Transient
+from contact.halfspace.local_law import Warmth
 
 #: Radius of the elements' borders, half curvature and load of the ball of the input file cattaneo (units of that file: mm, N).
 BALL = contact.Material(200e6, 0.42)
@@ -204,3 +205,35 @@ def test_falling_friction_has_a_sticking_and_a_sliding_step_as_in_contact():
         force.append(-s.Fx)
     assert stick == [77, 34]
     assert force == pytest.approx([111.6e3, 106.4e3], abs=60.0)
+
+
+def test_friction_over_the_temperature_is_that_of_the_steady_half_space():
+    x, y = (np.arange(42) - 20.5) * 0.5e-3, (np.arange(48) - 23.5) * 0.5e-3
+    gap, creepage = Gap(x, y, 1.015 * x**2 + 0.4215 * y[:, None] ** 2), contact.Creepage(0.05)
+    friction = contact.friction.Friction(
+        0.3, hot_factor=0.4, reference_temperature=293.15, background_temperature=293.15, temperature_range=400.0
+    )
+    both = {"normal": "halfspace", "tangential": "halfspace", "speed": 30.0}
+    steady = contact.solve(gap, creepage, load=1e5, friction=friction, **both)
+    warmth = Warmth(-0.18, 293.15, 400.0, 293.15, contact.material.Thermal())
+    hot = Transient(gap, load=1e5, friction=LocalLaw(0.3, warmth=warmth), speed=30.0)
+    found = hot.roll_on(creepage)
+    assert found.Fx == pytest.approx(steady.Fx, rel=2e-3)
+    assert -found.Fx < 0.95 * 0.3e5
+    with pytest.raises(contact.ContactError, match="a step follows no temperature"):
+        hot.roll(creepage, distance=0.5e-3)
+    rising = LocalLaw(0.3, warmth=Warmth(0.1, 293.15, 400.0, 293.15, contact.material.Thermal()))
+    assert -Transient(gap, load=1e5, friction=rising, speed=30.0).roll_on(creepage).Fx > 0.3e5
+
+
+def test_rigid_slip_of_each_element_adds_to_the_motion():
+    one, other, lateral = ball(), ball(), 2e-6
+    moved = one.shift(3e-6, lateral, 1e-3)
+    x, y = other.grid
+    slip = np.zeros((2, y.size, x.size))
+    slip[0], slip[1] = -1e-3 * y[:, None], lateral + 1e-3 * x
+    other.change(slip=slip)
+    given = other.shift(3e-6)
+    assert (given.Fx, given.Fy, given.Mz) == pytest.approx((moved.Fx, moved.Fy, moved.Mz), rel=1e-6)
+    with pytest.raises(contact.ContactError, match="slip has shape"):
+        other.change(slip=[1.0])
