@@ -277,6 +277,9 @@ def test_rails_may_differ_and_are_mirrored(tmp_path):
     assert moved[0] == pytest.approx(-moved[1], abs=1e-9)
 
 
+_HEAD = "distance,alignment,vertical,cross_level,gauge"
+
+
 def test_a_measured_series_lies_beside_its_scenario_and_is_part_of_the_fingerprint(tmp_path):
     text = 'name = "s"\nlength = 40.0\nspeed = 20.0\nvehicle = "wheelset"\n[track]\nmeasured = "t.csv"\n'
     (tmp_path / "s.toml").write_text(text, encoding="utf-8")
