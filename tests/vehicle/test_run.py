@@ -288,7 +288,7 @@ def test_a_measured_series_lies_beside_its_scenario_and_is_part_of_the_fingerpri
     prints = []
     for value in (0, 1):
         (tmp_path / "t.csv").write_text(
-            "h\n" + "".join(f"{10 * s},{1e-3 * value},0,0,0\n" for s in range(5)), encoding="utf-8"
+            f"{_HEAD}\n" + "".join(f"{10 * s},{1e-3 * value},0,0,0\n" for s in range(5)), encoding="utf-8"
         )
         prints.append(read_scenario(tmp_path / "s.toml").fingerprint)
     assert prints[0] != prints[1]
