@@ -1,5 +1,6 @@
 """Pictures: they show the solution at the right places, with common scales and without global side effects."""
 
+import copy
 import os
 import subprocess
 import sys
@@ -293,3 +294,20 @@ def test_profiles_are_drawn_over_one_another():
     first, second = (line.get_ydata() for line in outline.lines)
     np.testing.assert_allclose(first, 1e3 * wheel.z)
     assert np.ptp(second - first) > 0.5
+
+
+@pytest.mark.parametrize("note", ["", "3 rows sorted, 12 spikes dropped", "3 rows sorted, 1 of 2 scans kept, " * 6])
+def test_titles_of_a_position_and_notes_on_a_repair_lie_within_the_picture(note):
+    from matplotlib.backends.backend_agg import FigureCanvasAgg
+
+    wheel, rail = copy.copy(profile.s1002()), profile.rail_60e1()
+    object.__setattr__(wheel, "note", note)
+    patches = Pair(wheel, rail).contacts(Pose(y=3e-3), Velocity(20.0), load=8e4)
+    solutions = [contact.solve(one.separation, one.creepage, load=one.load) for one in patches]
+    figure = plot.position([plot.Wheel("right", wheel, rail, patches, solutions)], 0.0)
+    FigureCanvasAgg(figure).draw()
+    texts = [ax.title for ax in figure.get_axes()] + [text for part in figure.subfigs for text in part.texts]
+    for text in texts:
+        box = text.get_window_extent()
+        assert 0.0 <= box.y0 <= box.y1 <= figure.bbox.height, text.get_text()
+        assert 0.0 <= box.x0 <= box.x1 <= figure.bbox.width, text.get_text()

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import textwrap
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
@@ -16,6 +17,9 @@ from contact.errors import ContactError
 from contact.plot.patches import Scale, patch
 from contact.plot.style import DPI, FAINT, INK, LINES, MM, style
 from contact.solution import Solution
+
+#: Notes on the profiles below their picture: letters to the inch, height of a line and of the space above [inch].
+_LETTERS, _LINE, _GAP = 15.0, 0.15, 0.15
 
 if TYPE_CHECKING:
     from contact.geometry.profile import Profile
@@ -71,7 +75,11 @@ def position(wheels: Sequence[Wheel], roll: float = 0.0) -> Figure:
     ]
     width, height = Scale(solutions).figure_size(len(solutions))
     width = max(width, 4.0 * len(wheels))
-    above = 0.55 * width / len(wheels) + 0.3
+    notes = sorted(
+        {f"{each.name or each.kind}: {each.note}" for w in wheels for each in (w.wheel, w.rail) if each.note}
+    )
+    lines = [line for note in notes for line in textwrap.wrap(note, round(_LETTERS * width))]
+    above = 0.55 * width / len(wheels) + 0.3 + (_LINE * len(lines) + _GAP if lines else 0.0)
     with style():
         figure = Figure(figsize=(width, height + above), dpi=DPI, layout="constrained")
         parts = figure.subfigures(2, 1, height_ratios=[above, height], squeeze=False)[:, 0]
@@ -80,9 +88,8 @@ def position(wheels: Sequence[Wheel], roll: float = 0.0) -> Figure:
         for ax, wheel in zip(axes, wheels, strict=True):
             _section(ax, wheel, roll, strongest)
         axes[0].set_ylabel("z [mm], down")
-        notes = {f"{each.name or each.kind}: {each.note}" for w in wheels for each in (w.wheel, w.rail) if each.note}
-        if notes:
-            parts[0].supxlabel("  ·  ".join(sorted(notes)), fontsize=8.0, color=FAINT)
+        if lines:
+            parts[0].supxlabel("\n".join(lines), fontsize=8.0, color=FAINT)
     patch(solutions, titles, figure=parts[1])
     return figure
 
