@@ -82,6 +82,13 @@ def main(words: Sequence[str] | None = None, name: str | None = None) -> None:
         metavar="SCENARIO",
         help="add the native FMUs Vehicle and OpenVehicle: the vehicle of a scenario's file on its track",
     )
+    parser.add_argument(
+        "--validation",
+        type=Path,
+        metavar="FOLDER",
+        help="write a validation set for each FMU into FOLDER: inputs, reference, tolerances (contact fmu-check compares)",
+    )
+    parser.add_argument("--force", action="store_true", help="overwrite validation sets that exist")
     profiles.add_options(parser)
     parser.add_argument("--describe", action="store_true", help="print the variables as Markdown and build nothing")
     arguments = parser.parse_args(words)
@@ -163,11 +170,15 @@ def _build(arguments: argparse.Namespace, asked: _Asked) -> None:
 
         for model in chosen:
             print(f"{model.table.name}, for hosts with Python ... ", end="", flush=True)
-            print(_size(python.build(model, arguments.out / "python", asked.platforms)))
+            made = python.build(model, arguments.out / "python", asked.platforms)
+            print(_size(made))
+            _validate(arguments, [made], model)
         if names >= _WHEELSET:
             build_system(arguments.out / "python")
     if "native" in asked.packagings:
-        build_native((*chosen, *more), arguments.out / "native", asked.versions, asked.platforms)
+        made_of = build_native((*chosen, *more), arguments.out / "native", asked.versions, asked.platforms)
+        for model, paths in zip((*chosen, *more), made_of, strict=True):
+            _validate(arguments, paths, model)
         if asked.versions[0] == 2 and names >= _WHEELSET:
             build_system(arguments.out / "native")
         if asked.versions[0] == 2 and arguments.vehicle and names >= _VEHICLE:
@@ -175,10 +186,28 @@ def _build(arguments: argparse.Namespace, asked: _Asked) -> None:
             print(f"{system.name}, the vehicle and its contacts: {_size(ssp.build(arguments.out / 'native', system))}")
 
 
+def _validate(arguments: argparse.Namespace, paths: Sequence[Path], model: Model) -> None:
+    """Write the validation sets of an FMU, if asked for."""
+    if arguments.validation is None:
+        return
+    try:
+        from . import validation
+    except ModuleNotFoundError as error:
+        raise ImportError(f"{error}: a validation set is made by fmpy: pip install 'wheelrail-contact[fmu]'") from None
+    for path in paths:
+        is_python = path.parent.name == "python"
+        exchange = not is_python and model.component().exchange
+        made = validation.write(path, model.table, arguments.validation, exchange=exchange, force=arguments.force)
+        for place in made:
+            print(f"{model.table.name}, validation set: {place}")
+        if not made:
+            print(f"{model.table.name}, validation set: not made, a vehicle without contacts needs its pairs")
+
+
 def build_native(
     chosen: Sequence[Model], folder: Path, versions: Sequence[int] = (2, 3), platforms: Sequence[str] = systems.USUAL
-) -> None:
-    """Build FMUs that need no Python and print the progress.
+) -> list[list[Path]]:
+    """Build FMUs that need no Python and print the progress. Return the files of each.
 
     An FMU is the libraries and its data. A clone builds the libraries if they are not there.
     """
@@ -187,16 +216,18 @@ def build_native(
     def say(what: str) -> None:
         print(f"  {time.monotonic() - begin:3.0f} s  {what}", flush=True)
 
-    def build(model: Model) -> None:
+    def build(model: Model) -> list[Path]:
         def say_of_it(what: str) -> None:
             say(f"{model.table.name}: {what}")
 
-        for path in native.build(model, folder, say_of_it, versions, platforms):
+        made = native.build(model, folder, say_of_it, versions, platforms)
+        for path in made:
             say_of_it(_size(path))
+        return made
 
     print("Native, for hosts without Python:")
     with ThreadPoolExecutor(os.cpu_count()) as pool:
-        list(pool.map(build, chosen))
+        return list(pool.map(build, chosen))
 
 
 def build_system(folder: Path) -> None:

@@ -75,6 +75,11 @@ def fmu(
     describe: Annotated[
         bool, typer.Option("--describe", help="Print the variables as Markdown and build nothing.")
     ] = False,
+    validation: Annotated[
+        Path | None,
+        typer.Option(help="Write a validation set for each FMU into this folder; contact fmu-check compares with it."),
+    ] = None,
+    force: Annotated[bool, typer.Option("--force", help="Overwrite validation sets that exist.")] = False,
     as_json: opt.Json = False,
 ) -> None:
     """Build FMUs: by default WheelRailPair, native, FMI 2.0.
@@ -91,6 +96,7 @@ def fmu(
         "wheel": wheel,
         "rail": rail,
         "fmi": fmi,
+        "validation": validation,
         **vars(reading),
     }
     repair, rotation = options.pop("profile_repair"), options.pop("profile_rotation")
@@ -106,6 +112,7 @@ def fmu(
         "--surfaces": surfaces,
         "--arm": arm,
         "--describe": describe,
+        "--force": force,
         "--profile-repair": repair,
     }
     words += [word for word, on in switches.items() if on]

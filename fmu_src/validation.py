@@ -1,0 +1,194 @@
+"""A validation set of an FMU, in the form of the FMI Cross-Check: inputs, reference, options, tolerances and a README.
+
+The reference is what the FMU answers in fmpy on the machine that packs it. It is held against what physics says, and only then
+written. `contact fmu-check` compares what another tool wrote with it.
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from contact.arrays import Array
+from contact.errors import ContactError
+from .tables.solver import LEAST_LOAD
+from .validation_cases import SCENES, Case, case, columns, has_case
+from .variables import Causality, Table
+
+KINDS = {"cs": "CoSimulation", "me": "ModelExchange"}
+#: Tolerance of an output as a share of its largest value: another processor, and rates that add up in another way.
+_RELATIVE, _TOTAL = 1e-3, 2e-2
+_README = """# Validation set of {name}
+
+FMI {version}, {kind}. File of the FMU: {file}
+
+1. Import the FMU in your tool. Leave all parameters at their starts.
+2. Drive it by `{name}_in.csv` with a communication step of {step:g} s from 0 to {stop:g} s. Inputs are held over a step.
+3. Write all outputs at these {n} times to a file and compare:
+
+       contact fmu-check RESULT.csv --reference .
+
+`{name}_ref.csv` is what the FMU answers in fmpy {fmpy}: in co-simulation the outputs at the end of a step belong to the inputs
+at its beginning, in model exchange to those of the same time. `tolerances.csv` has the tolerance of each output.
+
+The run visits: {scenes}.
+
+What physics says of the reference, each checked when it was written: {physics}.
+"""
+
+
+def write(fmu: Path, table: Table, folder: Path, *, exchange: bool, force: bool) -> list[Path]:
+    """Write the sets of an FMU file below `folder` and return their folders.
+
+    Raises
+    ------
+    ContactError
+        If there is a set already and not `force`, or if the answers of the FMU contradict physics.
+    """
+    if not has_case(table):
+        return []
+    from fmpy import read_model_description
+
+    version = read_model_description(str(fmu)).fmiVersion.split(".")[0]
+    packaging = "python" if "python" in fmu.parts[-3:] else "native"
+    made = []
+    for short in KINDS if exchange else ("cs",):
+        place = folder / packaging / f"fmi{version}" / short / table.name
+        if place.exists() and any(place.iterdir()) and not force:
+            raise ContactError(f"{place} exists; --force overwrites it")
+        _write(fmu, table, place, short, version)
+        made.append(place)
+    return made
+
+
+def _write(fmu: Path, table: Table, place: Path, short: str, version: str) -> None:
+    import fmpy
+
+    given, answer = _run(fmu, table, short)
+    if wrong := contradictions(table, answer):
+        raise ContactError(f"{fmu.name}, {KINDS[short]}: {wrong[0]}")
+    place.mkdir(parents=True, exist_ok=True)
+    name = table.name
+    names = [one for one in columns(table, Causality.OUTPUT) if one in answer]
+    _csv(place / f"{name}_in.csv", given.time, _inputs(table, given, _scalars(fmu)))
+    _csv(place / f"{name}_ref.csv", answer["time"], {one: answer[one] for one in names})
+    options = {"StartTime": 0.0, "StopTime": given.time[-1], "StepSize": given.step, "RelTol": 1e-6}
+    (place / f"{name}_ref.opt").write_text(
+        "".join(f"{k},{v!r}\n" for k, v in _floats(options).items()), encoding="utf-8"
+    )
+    rows = [f"{one},{tolerance(one, answer[one])!r}\n" for one in names]
+    (place / "tolerances.csv").write_text("output,tolerance\n" + "".join(rows), encoding="utf-8")
+    text = _README.format(
+        name=name, version=version, kind=KINDS[short], file=fmu.name, step=given.step, stop=given.time[-1],
+        n=len(given.time), fmpy=fmpy.__version__, scenes=_scenes(table, given), physics="; ".join(laws(table)),
+    )  # fmt: skip
+    (place / "README.md").write_text(text, encoding="utf-8")
+
+
+def _floats(options: dict[str, Any]) -> dict[str, float]:
+    return {name: float(value) for name, value in options.items()}
+
+
+def _scenes(table: Table, given: Case) -> str:
+    if "load.normal_force" not in given.inputs:
+        return "changing inputs"
+    return ", ".join(f"{name} ({a * given.time[-1]:g} to {b * given.time[-1]:g} s)" for name, (a, b) in SCENES.items())
+
+
+def _inputs(table: Table, given: Case, scalar: set[str]) -> dict[str, Array]:
+    """Return all inputs that are scalars in the FMU; those that do not vary are at their starts."""
+    starts = {one.name: float(one.first) for one in table.scalars}
+    names = [name for name in columns(table, Causality.INPUT) if name in scalar]
+    return {name: given.inputs.get(name, np.full(len(given.time), starts[name])) for name in names}
+
+
+def _scalars(fmu: Path) -> set[str]:
+    """Return the names of the variables that are no arrays; in FMI 2.0 these are all."""
+    from fmpy import read_model_description
+
+    return {v.name for v in read_model_description(str(fmu)).modelVariables if not v.dimensions}
+
+
+def _run(fmu: Path, table: Table, short: str) -> tuple[Case, dict[str, Array]]:
+    """Return the inputs and the answers. On profiles whose flange lies nearer the way to it is shorter."""
+    for amplitude in (1.0, 0.7, 0.4, 0.1):
+        given = case(table, amplitude)
+        answer = _simulated(fmu, table, given, short)
+        if len(answer["time"]) == len(given.time):
+            return given, answer
+    raise ContactError(f"{fmu.name}: the validation run ended at {answer['time'][-1]:g} s of {given.time[-1]:g} s")
+
+
+def _simulated(fmu: Path, table: Table, given: Case, short: str) -> dict[str, Array]:
+    from fmpy import simulate_fmu
+
+    scalar = _scalars(fmu)
+    varied = _inputs(table, given, scalar)
+    signals = np.zeros(len(given.time), dtype=[("time", float), *((name, float) for name in varied)])
+    signals["time"] = given.time
+    for name, values in varied.items():
+        signals[name] = values
+    outputs = [name for name in columns(table, Causality.OUTPUT) if name in scalar]
+    result = simulate_fmu(
+        str(fmu), fmi_type=KINDS[short], input=signals, output=outputs, start_time=0.0, stop_time=given.time[-1],
+        step_size=given.step, output_interval=given.step, solver="Euler",
+    )  # fmt: skip
+    return {name: np.asarray(result[name], float) for name in result.dtype.names}
+
+
+def _csv(path: Path, time: Array, rows: dict[str, Array]) -> None:
+    lines = [",".join(f'"{name}"' for name in ("time", *rows))]
+    lines += [",".join(repr(float(x)) for x in row) for row in zip(time, *rows.values(), strict=True)]
+    path.write_text("\n".join(lines) + "\n", encoding="utf-8")
+
+
+def tolerance(name: str, values: Array) -> float:
+    """Return the absolute tolerance of an output with these values. The tolerance of a number that is always 0 is 1e-9."""
+    return float(max((_TOTAL if "total." in name else _RELATIVE) * np.max(np.abs(values)), 1e-9))
+
+
+# ---------------------------------------------------------------- what physics says
+
+
+def laws(table: Table) -> list[str]:
+    """Return what is checked of an answer, in words."""
+    found = ["friction never gives power"] if "power.friction" in table.row else []
+    if "total.energy" in table.row:
+        found.append("energy and worn volume never fall")
+    if "wheel.Q" in table.row:
+        found.append(
+            "Q and Y are the vertical and the outward force on the rail, and no friction exceeds its coefficient"
+        )
+    if "load.normal_force" in table.row:
+        found.append("without a load all forces are 0")
+    return found or ["all numbers are finite"]
+
+
+def contradictions(table: Table, answer: dict[str, Array]) -> list[str]:
+    """Return what physics says against an answer."""
+    found = [f"{name} is not finite" for name, values in answer.items() if not np.isfinite(values).all()]
+
+    def check(law: str, holds: NDArray[np.bool_]) -> None:
+        if not np.all(holds):
+            at = answer["time"][int(np.argmin(holds))]
+            found.append(f"{law}: not at {at:g} s")
+
+    for name in ("total.energy", "total.worn_volume", "total.distance", "total.T_gamma"):
+        if name in answer:
+            check(f"{name} falls", np.diff(answer[name], prepend=answer[name][0]) >= 0.0)
+    if "power.friction" in answer:
+        check("friction gives power", answer["power.friction"] >= -1e-9)
+    if "used_friction" in answer:
+        largest = float(table.scalars[table.references("friction.coefficient")[0]].first)  # no case varies it
+        check("friction exceeds its coefficient", answer["used_friction"] <= largest + 1e-6)
+    if "wheel.Q" in answer:
+        largest = 1e-9 * max(float(np.max(np.abs(answer["wheel.Q"]))), 1.0)
+        check("Q is not the vertical force", np.abs(np.abs(answer["wheel.Q"]) - np.abs(answer["force.z"])) <= largest)
+        check("Y is not the lateral force", np.abs(np.abs(answer["wheel.Y"]) - np.abs(answer["force.y"])) <= largest)
+    if "status_real" in answer and "force.x" in answer:
+        free = answer["status_real"] == 2.0
+        check("a wheel without contact has a force", ~free | (np.abs(answer["force.x"]) < abs(LEAST_LOAD) * 1e-9))
+    return found

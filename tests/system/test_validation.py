@@ -1,0 +1,132 @@
+"""Validation sets of FMUs, in the form of the FMI Cross-Check: written, read back by fmpy, run by fmpy and by a C host."""
+
+import shutil
+from pathlib import Path
+
+import fmpy
+import numpy as np
+import pytest
+from fmpy.util import read_csv, read_ref_opt_file
+from script_host import Script
+
+from contact.errors import ContactError
+from fmu_src import validation
+from fmu_src.catalogue import models
+from fmu_src.check import compare
+from fmu_src.validation_cases import case
+from models.wheelset.ports import POINTS
+
+MODELS = {model.table.name: model for model in models(POINTS)}
+NAMES = ("WheelRailPair", "EllipticContact")
+
+
+@pytest.fixture(scope="module")
+def of_python(fmus, tmp_path_factory):
+    """Return the folder with the sets of the FMUs for hosts with Python."""
+    folder = tmp_path_factory.mktemp("sets")
+    for name in NAMES:
+        validation.write(fmus / f"{name}.fmu", MODELS[name].table, folder, exchange=False, force=False)
+    return folder / "python" / "fmi2" / "cs"
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_fmpy_reads_a_set_by_the_rules_of_the_cross_check(fmus, of_python, name):
+    """The checks of fmpy.cross_check: valid options, all inputs, all outputs, nothing else."""
+    place = of_python / name
+    description = fmpy.read_model_description(str(fmus / f"{name}.fmu"))
+    read = description.modelVariables
+    real = [v for v in read if v.type == "Real" and not v.name.startswith("accumulated") and "," not in v.name]
+    options = read_ref_opt_file(place / f"{name}_ref.opt")
+    inputs = read_csv(place / f"{name}_in.csv", [v.name for v in real if v.causality == "input"])
+    reference = read_csv(place / f"{name}_ref.csv", [v.name for v in real if v.causality == "output"])
+    assert options["StepSize"] == 0.01
+    assert len(inputs) == len(reference) == 201
+    assert reference["time"][-1] == options["StopTime"] == 2.0
+    assert "fmu-check" in (place / "README.md").read_text()
+
+
+def test_a_run_visits_tread_flange_two_patches_lift_off_and_full_slip(of_python):
+    reference = read_csv(of_python / "WheelRailPair" / "WheelRailPair_ref.csv")
+    assert {0.0, 1.0, 2.0} <= set(reference["patches.count_real"])
+    assert {1.0, 2.0, 3.0} <= set(reference["status_real"])  # OK, no contact, saturated
+    assert np.max(np.abs(reference["patch[1].angle"])) > 0.5
+    assert validation.contradictions(MODELS["WheelRailPair"].table, columns_of(reference)) == []
+
+
+def columns_of(rows) -> dict:
+    return {name: np.array(rows[name]) for name in rows.dtype.names}
+
+
+@pytest.mark.parametrize(
+    ("name", "change", "message"),
+    [
+        ("power.friction", lambda x: -x, "friction gives power"),
+        ("total.energy", lambda x: x[::-1], "total.energy falls"),
+        ("wheel.Q", lambda x: 1.01 * x, "Q is not the vertical force"),
+        ("used_friction", lambda x: x + 0.1, "friction exceeds"),
+        ("force.x", lambda x: x + 10.0, "without contact has a force"),
+    ],
+)
+def test_an_answer_against_physics_is_not_written(of_python, name, change, message):
+    answer = columns_of(read_csv(of_python / "WheelRailPair" / "WheelRailPair_ref.csv"))
+    answer[name] = change(answer[name])
+    assert any(message in one for one in validation.contradictions(MODELS["WheelRailPair"].table, answer))
+
+
+def test_a_set_that_exists_is_overwritten_only_by_force(fmus, of_python, tmp_path):
+    place = tmp_path / "python" / "fmi2" / "cs" / "EllipticContact"
+    shutil.copytree(of_python / "EllipticContact", place)
+    given = fmus / "EllipticContact.fmu", MODELS["EllipticContact"].table, tmp_path
+    with pytest.raises(ContactError, match="exists; --force overwrites it"):
+        validation.write(*given, exchange=False, force=False)
+    validation.write(*given, exchange=False, force=True)
+
+
+@pytest.mark.parametrize("short", ["cs", "me"])
+@pytest.mark.parametrize("name", NAMES)
+def test_the_native_fmu_run_by_fmpy_agrees_with_its_set_and_with_the_other_packaging(
+    native, of_python, tmp_path, name, short
+):
+    made = validation.write(native.with_name(f"{name}.fmu"), MODELS[name].table, tmp_path, exchange=True, force=False)
+    (place,) = [one for one in made if one.parent.name == short]
+    assert compare(place / f"{name}_ref.csv", place).agrees
+    if short == "cs":
+        found = compare(place / f"{name}_ref.csv", of_python / name)
+        assert found.agrees, found.lines
+
+
+def test_fmi_3_has_its_set(native, tmp_path):
+    path = native.parent / "fmi3" / "EllipticContact.fmu"
+    made = validation.write(path, MODELS["EllipticContact"].table, tmp_path, exchange=True, force=False)
+    assert [(one.parents[1].name, one.parent.name) for one in made] == [("fmi3", "cs"), ("fmi3", "me")]
+
+
+def test_a_c_host_gives_the_reference(native, unzipped, tmp_path):
+    """The host of `reference/native/host/script.c` sets all inputs, steps and prints all outputs."""
+    path = native.with_name("EllipticContact.fmu")
+    (place, _) = validation.write(path, MODELS["EllipticContact"].table, tmp_path, exchange=True, force=False)
+    inputs, reference = (read_csv(place / f"EllipticContact_{end}.csv") for end in ("in", "ref"))
+    references = {v.name: v.valueReference for v in fmpy.read_model_description(str(path)).modelVariables}
+    outputs = reference.dtype.names[1:]
+    lines = [f"s {references[n]} {float(inputs[n][0])!r}" for n in inputs.dtype.names[1:]] + ["i"]
+    lines += [f"g {references[n]}" for n in outputs]
+    for k in range(len(inputs) - 1):
+        lines += [f"s {references[n]} {float(inputs[n][k])!r}" for n in inputs.dtype.names[1:]]
+        lines += [f"d {float(inputs['time'][k])!r} 0.01", *(f"g {references[n]}" for n in outputs)]
+    folder: Path = unzipped(path)
+    host = Script("linux64", tmp_path)
+    rows = host(folder, 1, "\n".join(lines) + "\n").reshape(-1, len(outputs))
+    text = [";".join(("time", *(f"host.{name}" for name in outputs)))]
+    text += [";".join(map(repr, map(float, (t, *row)))) for t, row in zip(inputs["time"], rows, strict=True)]
+    (tmp_path / "result.csv").write_text("\n".join(text) + "\n")
+    found = compare(tmp_path / "result.csv", place)
+    assert found.agrees, found.lines
+
+
+def test_every_fmu_with_inputs_has_a_case_within_its_ranges():
+    for name, model in MODELS.items():
+        given = case(model.table)
+        assert given.inputs, name
+        for row, values in given.inputs.items():
+            for value in (values.min(), values.max()):
+                model.table.scalars[model.table.references(row)[0]].check(float(value))
