@@ -5,8 +5,6 @@ They are dropped before anything else looks at the points. Measures are relative
 
 from __future__ import annotations
 
-import itertools
-
 import numpy as np
 from numpy.typing import NDArray
 
@@ -23,14 +21,16 @@ _RETURN, _RETURN_OF_CODE = (
 _FEW, _SHARE, _SHARE_AT_END = 3, 0.05, 0.02  # points beside the profile that may be false together
 _SHARE_REPEATED = 0.1  # of the points that may stand at several places
 _MOST_AT_ENDS = 4  # jumps of a scan that may all lead to false points at its ends; drawings of long lines have more
+_TOGETHER = 3  # unlike false points beside each other
+_MOST_ROUNDS = 100
 _END = 0.4  # of the extent: a step this long to an end of the scan is no gap
 
 
 def false_rows(points: Points) -> Mask:
     """Return which rows are no points of the profile that the others lie on. A row without a value has NaN."""
     false: Mask = np.asarray(~np.isfinite(points).all(axis=1))
-    for find in (_far, _spread, _repeated, _aside, _zeros):
-        while True:
+    for find in (_spread, _far, _spread, _repeated, _aside, _zeros):
+        for _ in range(_MOST_ROUNDS):
             there = np.flatnonzero(~false)
             found = find(points[there]) if there.size > 7 else np.zeros(0, dtype=bool)
             if not found.any():
@@ -90,15 +90,22 @@ def _aside(points: Points) -> Mask:
     if not 0 < cuts.size < n // 3:
         return found
     bounds = [0, *cuts.tolist(), n]
-    few, best = max(_FEW, int(_SHARE * n)), (True, 1.0)
-    usual = _usual_step(points)
-    for a, b in itertools.pairwise(bounds[1:-1]):
-        if _unlike(points[a:b]) <= few:
+    few, usual = max(_FEW, int(_SHARE * n)), _usual_step(points)
+    ranked = []
+    for k in range(1, len(bounds) - 2):
+        for m in range(1, min(_TOGETHER, len(bounds) - 2 - k) + 1):
+            a, b = bounds[k], bounds[k + m]
+            if b - a > n // 2 or _unlike(points[a:b]) > (few if m == 1 else _FEW):
+                break
             code = _code(points[a:b], usual)
-            rank = not code, _detour(points[a - 1], points[a:b], points[b], code)
-            if rank[1] < 1.0 and rank < best:  # zeros first: good points between two false ones look aside too
-                found[:], best = False, rank
-                found[a:b] = True
+            detour = _detour(points[a - 1], points[a:b], points[b], code)
+            if detour < 1.0:
+                ranked.append((m, not code, detour, k, a, b))
+    free = np.ones(len(bounds) + 1, dtype=bool)
+    for m, _, _, k, a, b in sorted(ranked):  # zeros first: good points between two false ones look aside too
+        if free[k - 1 : k + m + 1].all():
+            free[k : k + m] = False
+            found[a:b] = True
     if not found.any() and cuts.size <= _MOST_AT_ENDS:
         few = max(_FEW, int(_SHARE_AT_END * n))
         for end, rest in ((slice(0, bounds[1]), slice(bounds[1], n)), (slice(bounds[-2], n), slice(0, bounds[-2]))):
@@ -151,11 +158,14 @@ def _beside(end: Points, scan: Points, usual: float) -> bool:
 
 
 def _zeros(points: Points) -> Mask:
-    """Return runs with 0 in the same column to which the scan turns back, and from which it turns back again."""
+    """Return runs with 0 in a column to which the scan turns back, and from which it turns back again."""
     n = len(points)
     found = np.zeros(n, dtype=bool)
+    least = 1.2 * _usual_step(points)
     for column in points.T:
         for a, b in _runs(column == 0.0):
             if a > 0 and b < n and b - a <= max(_FEW, _SHARE * n) and not np.ptp(points[a:b], axis=0).all():
-                found[a:b] |= (points[a] - points[a - 1]) @ (points[b] - points[b - 1]) < 0.0
+                there, back = points[a] - points[a - 1], points[b] - points[b - 1]
+                far = min(np.hypot(*there), np.hypot(*back)) > least or b - a > 1 or not points[a:b].any()
+                found[a:b] |= bool(far and there @ back < 0.0)
     return found

@@ -244,6 +244,9 @@ def misplaced(points: Points, kind: Kind, unit: float = 0.0) -> tuple[str, str, 
     """
     y, z = points.T
     width, height = float(np.ptp(y)), float(np.ptp(z))
+    if width == 0.0:
+        cure = "which columns hold y and z? columns=(2, 3) chooses them"
+        return f"all points have y = {y[0]:g} m", cure, "y is the same in all points"
     usual = NARROWEST <= width <= WIDEST
     if NARROWEST <= height <= WIDEST and height > TALLER * width and (kind == "wheel" or not usual):
         cure = "are its columns y and z swapped, or is it turned by 90°?"

@@ -13,12 +13,23 @@ const sum = values => values.reduce((total, value) => total + value, 0);
 const argmax = values => values.reduce((best, value, i) => value > values[best] ? i : best, 0);
 const pathLength = points => sum(points.slice(1).map((p, i) => distance(p, points[i])));
 
+/* The text of a file: UTF-8, UTF-16 with its mark, else Windows' letters; with plain signs for typographic ones. */
+function textOf(content) {
+  const bytes = new Uint8Array(content), mark = (a, b) => bytes[0] === a && bytes[1] === b;
+  let text;
+  if (mark(0xff, 0xfe) || mark(0xfe, 0xff)) text = new TextDecoder(mark(0xff, 0xfe) ? "utf-16le" : "utf-16be").decode(content);
+  else try { text = new TextDecoder("utf-8", { fatal: true }).decode(content); } catch { text = new TextDecoder("latin1").decode(content); }
+  return text.replace(/[\u2010-\u2014\u2212]/g, "-").replace(/[\u00a0\u2000-\u200a\u202f]/g, " ").replace(/[\u200b\ufeff]/g, "").replace(/[\u201c-\u201e]/g, '"');
+}
+
 /* Rows of two numbers or more, after any lines of text. Semicolons, tabs, blanks or commas separate; a comma may be decimal. */
 function rowsOf(text, findings) {
   const rows = [];
   let left = 0;
-  for (const line of text.split(/\r?\n/)) {
-    const bare = line.split("#")[0].split("!")[0].trim();
+  for (const line of text.split(/\r\n|\n|\r/)) {
+    let bare = line.split(/[#!%]/)[0];
+    if (bare.split('"').length % 2 === 0) bare = bare.split('"')[0]; // a quote without its partner begins a remark
+    bare = bare.replaceAll('"', "").replace(/(\d)[dD]([+-]?\d)/g, "$1e$2").trim();
     if (!bare) continue;
     let words = bare.split(/[\s;]+/);
     if (words.length > 1 && words.every(word => /^[+-]?\d*,?\d*(e[+-]?\d+)?,?$/i.test(word)) && words.slice(0, 2).some(word => /,\d/.test(word)))
@@ -251,7 +262,7 @@ function readProfile(content, asked, rules) {
     return { kind, numbers, findings };
   }
   if (content.byteLength > rules.largest_file) throw new ProfileError("a profile has some hundred kB; this file is larger than 20 MB");
-  let points = oneScan(inMetres(rowsOf(new TextDecoder("latin1").decode(content), findings), rules, findings), rules, findings);
+  let points = oneScan(inMetres(rowsOf(textOf(content), findings), rules, findings), rules, findings);
   const [looks] = appearance(points, rules), kind = looks ?? asked;
   if (!kind) throw new ProfileError("the points could be a wheel or a rail: open the file with “wheel …” or “rail …”");
   if (asked && looks && asked !== looks)

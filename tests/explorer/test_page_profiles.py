@@ -156,3 +156,13 @@ def test_swapped_columns_and_what_has_no_head_are_told(tmp_path):
     assert any(said in finding for finding in opened(written(tmp_path, wheel.z, wheel.y), "rail")["findings"])
     flat = opened(written(tmp_path, np.linspace(-0.035, 0.035, 80), np.zeros(80)), "rail")
     assert "no crown with sides that fall off: is this the head of a rail?" in flat["findings"]
+
+
+@pytest.mark.parametrize("encoding", ["utf-8", "utf-8-sig", "utf-16"])
+@pytest.mark.parametrize(
+    "change", [("-", "\N{MINUS SIGN}"), (" ", "\N{NO-BREAK SPACE}"), ("\n", '  " seen\n'), ("\n", "\r")]
+)
+def test_text_is_read_as_the_library_reads_it(encoding, change, tmp_path):
+    path = written(tmp_path, SHAPES["wheel"].y, SHAPES["wheel"].z)
+    path.write_bytes(path.read_text().replace(*change).encode(encoding))
+    assert points(opened(path)).shape[1] == SHAPES["wheel"].y.size

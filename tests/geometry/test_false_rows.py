@@ -242,3 +242,32 @@ def test_after_smoothing_only_the_corners_that_are_left_are_told(tmp_path):
     assert found.findings == ()
     assert "smoothing rounded" in found.profile.note
     assert "corner left is" in found.profile.note
+
+
+@pytest.mark.parametrize("seed", range(40))
+def test_random_points_beside_a_noisy_scan_with_a_gap_are_false_and_no_others(seed):
+    rng = np.random.default_rng(seed)
+    shape = profile.named(profile.names()[seed % len(profile.names())])
+    points = 1e3 * np.column_stack((shape.y, shape.z))[:: rng.integers(1, 4)]
+    if rng.random() < 0.5:
+        start = rng.integers(len(points) // 4, len(points) // 2)
+        points = np.delete(points, slice(start, start + len(points) // 8), axis=0)
+    points = points + rng.normal(size=points.shape) * rng.choice([0.0, 1e-3, 1e-2])
+    rows, false = list(points), [False] * len(points)
+    for _ in range(rng.integers(1, 5)):
+        place = rng.integers(1, len(rows))
+        rows.insert(place, rng.uniform(-150.0, 150.0, 2))
+        false.insert(place, True)
+    rows, false = np.array(rows), np.array(false)
+    found = false_rows(rows)
+    assert not (found & ~false).any()
+    for point in rows[false & ~found]:
+        assert np.hypot(*(points - point).T).min() < 12.0, "a point far from the profile was kept"
+
+
+def test_a_column_that_is_constant_asks_for_the_columns(tmp_path):
+    path = tmp_path / "wheel.txt"
+    path.write_text("\n".join(f"0.0 {row}" for row in rows_of(WHEEL)))
+    with pytest.raises(ContactError, match=r"all points have y = 0 m; which columns hold y and z\?"):
+        profile.read(path, **COLUMNS)
+    assert profile.read(path, columns=(2, 3), **COLUMNS).y.size == WHEEL.y.size
