@@ -26,7 +26,7 @@ from contact.study.files import csv_of
 DIFFERS = 1
 _SHOWN = 20
 #: Status of results that are not to be trusted.
-_DOUBTFUL = ("not converged", "unreachable", "out of range")
+_DOUBTFUL = ("not converged", "unreachable", "out of range", "doubtful gap")
 _ENDINGS = (".csv", ".nc", ".mat")
 
 Given = Annotated[Path, typer.Argument(help="input file of CONTACT (.inp)", show_default=False)]

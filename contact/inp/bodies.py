@@ -21,6 +21,7 @@ from contact.inp.grid import material
 from contact.inp.reasons import RefusedError, refuse
 
 _READERS = {".prr": formats.simpack, ".prw": formats.simpack, ".ban": formats.miniprof, ".whl": formats.miniprof}
+_SLICES = (".slcs", ".slcw")
 #: Distance of the longitudinal paths by which a profile that does not change is described [m].
 _PATHS = 2.5e-4
 #: Wavelengths that the filter takes [m].
@@ -82,11 +83,16 @@ def key(case: Case) -> tuple[Any, ...]:
     return (case.digits["C1"], *(case.get(name) for name in names), *sides)
 
 
+def has_slices(case: Case) -> bool:
+    """Return whether the rail or the wheel changes along the way."""
+    return any(case[f"{side}FNAME"].suffix.lower() in _SLICES for side in "RW")
+
+
 def body(case: Case, side: str) -> Profile | RailSurface | WheelSurface:
     """Return the rail (`side` R) or the wheel (W)."""
     path: Path = case[f"{side}FNAME"]
     kind = "rail" if side == "R" else "wheel"
-    slices = path.suffix.lower() in (".slcs", ".slcw")
+    slices = path.suffix.lower() in _SLICES
     mirror_y, mirror_z = case[f"{side}MIRRORY"] == 1, case[f"{side}MIRRORZ"]
     scale = case[f"{side}SCALE"]
 

@@ -14,8 +14,9 @@ from contact.inp.grid import bed, direction, material
 from contact.inp.reasons import refuse
 from contact.inp.results import PatchResult, Result
 from contact.inp.single import layer, require_supported
+from contact.registry import DEFAULT_NORMAL, lookup
 from contact.separation import Separation
-from contact.solution import Solution
+from contact.solution import Solution, Status
 from contact.solve import solve
 
 #: Samples of a separation.
@@ -51,12 +52,19 @@ class FastSingle:
         found = solve(
             separation, creepage, friction=friction, material=bodies, speed=speed, force=force, throw=False, **amount
         )
-        return Result(case, (strip_patch(case, found, sign),) if found.N > 0.0 else (), {}, status(found))
+        return Result(
+            case,
+            (strip_patch(case, found, sign),) if found.N > 0.0 else (),
+            {},
+            in_words(found.status, found.gap_error),
+        )
 
 
-def status(solution: Solution) -> str:
-    """Return the status in words."""
-    return solution.status.name.lower().replace("_", " ")
+def in_words(status: Status, gap_error: float) -> str:
+    """Return the status in words: "doubtful gap" where strips are no good model of the gap."""
+    if status in (Status.OK, Status.SATURATED) and gap_error > lookup("normal", DEFAULT_NORMAL).gap_limit:
+        return "doubtful gap"
+    return status.name.lower().replace("_", " ")
 
 
 def strip_patch(case: Case, s: Solution, sign: float) -> PatchResult:

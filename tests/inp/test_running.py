@@ -237,6 +237,21 @@ def test_a_pair_of_a_file_carries_its_vertical_force_on_canted_rails(pair):
     assert right.values["FY(TR)"] == pytest.approx(-strips.force[1], abs=0.01 * 24e3)
 
 
+def test_strips_on_slices_are_not_trusted(tmp_path):
+    wheel, rail = profile.s1002(), profile.rail_60e1(inclination=0)
+    (tmp_path / "rail.txt").write_text(columns(rail))
+    (tmp_path / "slice.txt").write_text(columns(wheel))
+    (tmp_path / "wheel.slcw").write_text("0.0 1.0\n2\n0 0 0\n1\n-0.1 'slice.txt'\n0.1 'slice.txt'\n")
+    text = files.PAIR.replace("profiles/rail.prr", "rail.txt").replace(
+        "'profiles/wheel.prw'   0   1.0   0.0", "'wheel.slcw' 0 1.0 0.0 -1"
+    )
+    text = text.replace("0.0  2.0  125000. 0.000  -0.1d", "0.0  -2.5  80000. 0.000  0.001")
+    grid, strips = run(tmp_path, text)[0], run(tmp_path, text, fast=True)[0]
+    assert grid.status in ("ok", "saturated")
+    assert strips.status == "doubtful gap"
+    assert strips.patches[0].values["FN"] == pytest.approx(grid.patches[0].values["FN"], rel=1e-3)
+
+
 def test_a_missing_profile_is_told_with_its_line(tmp_path):
     result = run(tmp_path, files.PAIR)[0]
     assert result.refused == "input"
