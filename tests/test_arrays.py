@@ -1,7 +1,9 @@
 """Arrays that a user gives: real numbers that are there, or an error that names the argument."""
 
+import re
 import warnings
 from decimal import Decimal
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -178,6 +180,34 @@ def test_points_whose_shapes_do_not_broadcast_are_refused():
     for call in (SOLUTION.pressure, GRID.pressure, lambda x, y: stress.at(SOLUTION, x, y, 1e-3)):
         with pytest.raises(ContactError, match=r"shapes do not broadcast: x \(2,\), y \(3,\)"):
             call([0.0, 0.0], [0.0, 0.0, 0.0])
+
+
+#: Conversions of what is no array of a user.
+OWN = (
+    "contact/arrays.py",  # the converter
+    "contact/columns.py",  # rows that a reader has made
+    "contact/notebook.py",  # what is drawn
+    "contact/accumulation/histogram.py",  # of its own sums
+    "contact/halfspace/bent.py",
+    "contact/halfspace/step.py",
+    "models/wheelset/fmu.py",  # what an FMU has returned
+)
+
+
+def test_arrays_of_users_have_one_way_in():
+    """np.asarray(…, float) drops masks and imaginary parts, reads text and counts truth values; as_array does not."""
+    converted = re.compile(
+        r"np\.(asarray|array|asanyarray|ascontiguousarray)\(\w[\w.\[\]'\"]*, (dtype=)?(np\.float64|float)\b"
+    )
+    root = Path(contact.__file__).parents[1]
+    found = set()
+    for folder in ("contact", "models"):
+        for path in (root / folder).rglob("*.py"):
+            name = path.relative_to(root).as_posix()
+            if "/kernels/" not in name and converted.search(path.read_text(encoding="utf-8")):
+                found.add(name)
+    assert found <= set(OWN)
+    assert converted.search("np.asarray(values[name], dtype=np.float64)")
 
 
 def test_an_array_given_is_copied():

@@ -16,7 +16,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from contact.arrays import Array
+from contact.arrays import Array, as_array
 from contact.errors import ContactError, require_number
 from contact.friction import LARGEST, Friction, as_friction
 from contact.material import Thermal
@@ -159,7 +159,7 @@ class LocalLaw:
 
 def _column(value: float | Array) -> Array:
     """Return a number or one number for each row as an array that broadcasts over the rows of a grid."""
-    return np.asarray(value, dtype=np.float64).reshape(-1, 1)
+    return as_array("friction", value).reshape(-1, 1)
 
 
 def of_each_element(friction: float | Friction | LocalLaw) -> tuple[LocalLaw, Friction, bool]:

@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import ArrayLike
 
-from contact.arrays import Array, broadcast, require_numbers
+from contact.arrays import Array, as_array, broadcast, require_numbers
 from contact.creepage import Creepage
 from contact.halfspace.bent import Bent, Surface
 from contact.halfspace.tang import Tangential
@@ -34,7 +34,8 @@ class GridSolution(Solution):
 
     def along(self, y: ArrayLike) -> Array:
         """Return the place on the grid [m] of a place in the plane [m]."""
-        return np.asarray(y, dtype=np.float64) if self.surface is None else self.surface.along(y)
+        places = as_array("y", y)
+        return places if self.surface is None else self.surface.along(places)
 
     def pressure(self, x: ArrayLike, y: ArrayLike) -> Array:
         """Return the contact pressure [Pa] at points `x`, `y` [m]; 0 outside. p² is bilinear between the elements."""
