@@ -22,7 +22,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from contact.arrays import Array
+from contact.arrays import Array, as_array
 from contact.creepage import Creepage, as_creepage
 from contact.errors import ContactError, require_number, require_pair
 from contact.friction import Friction
@@ -275,7 +275,7 @@ class Transient(OwnsArrays):
         last, self._stepper = self._stepper.slip, self._prepared()
         self._stepper.slip = last
         if slip is not None:
-            wanted, field = (2, *self._grid.h.shape), np.asarray(slip, dtype=np.float64)
+            wanted, field = (2, *self._grid.h.shape), as_array("slip", slip)
             if field.shape not in ((), wanted) or not np.isfinite(field).all():
                 raise ContactError(f"slip has shape {field.shape}; finite numbers of shape {wanted} are needed")
             self._stepper.slip = field
