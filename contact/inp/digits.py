@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from contact.errors import ContactError
+from contact.inp.controls import WORDS, Digit
 from contact.inp.reasons import REFUSED, REFUSED_ON_GRID
-from contact.inp.table import WORDS, Digit
 
 #: Digits that change nothing here.
 _WITHOUT_EFFECT = {

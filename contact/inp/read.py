@@ -8,21 +8,9 @@ from pathlib import Path
 from typing import Any
 
 from contact.inp.case import Case
-from contact.inp.table import (
-    BLOCKS,
-    POTENTIAL,
-    SUBSURFACE_ROWS,
-    SUBSURFACE_TYPES,
-    WORDS,
-    Array,
-    Block,
-    Digit,
-    Field,
-    Group,
-    d,
-    i,
-    maybe,
-)
+from contact.inp.controls import WORDS, Digit
+from contact.inp.fields import Array, Block, Field, Group, d, i, maybe
+from contact.inp.table import BLOCKS, POTENTIAL, SUBSURFACE_ROWS, SUBSURFACE_TYPES
 from contact.inp.words import Lines
 
 _MODULE = Group((i("MODULE"), maybe(i("REID", 0, 999), 0), maybe(i("CPID", 1, 9), 1)))

@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any, NoReturn
 
 from contact.errors import ContactError
-from contact.inp.table import Field, Now
+from contact.inp.fields import Field, Now
 
 #: CONTACT reads this many characters of a line.
 LINE_LENGTH = 256

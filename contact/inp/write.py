@@ -10,7 +10,9 @@ from typing import Any
 
 from contact.errors import ContactError
 from contact.inp.case import Case
-from contact.inp.table import BLOCKS, SUBSURFACE_ROWS, WORDS, Array, Field, Group
+from contact.inp.controls import WORDS
+from contact.inp.fields import Array, Field, Group
+from contact.inp.table import BLOCKS, SUBSURFACE_ROWS
 
 _PER_LINE = 8
 

@@ -5,9 +5,9 @@ from pathlib import Path
 import pytest
 
 from contact import ContactError
+from contact.inp.controls import WORDS
 from contact.inp.digits import digit_table, with_part
 from contact.inp.reasons import REASONS, REFUSED, REFUSED_ON_GRID
-from contact.inp.table import WORDS
 
 PAGE = Path(__file__).parents[2] / "docs" / "use" / "from_contact.md"
 

@@ -5,7 +5,7 @@ import math
 import pytest
 
 from contact import ContactError, inp
-from contact.inp.table import WORDS
+from contact.inp.controls import WORDS
 from contact.inp.words import angle, integer, real, split
 from tests import damaged
 from tests.inp import files
