@@ -16,6 +16,7 @@ _EVENTS = {
     Event.FIXED: "ends fixed from here on",
     Event.FOUND: "new panel on a lobe",
     Event.JOINED: "panels joined",
+    Event.PARTED: "panel parted where it is idle",
 }
 
 

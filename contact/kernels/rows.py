@@ -182,6 +182,7 @@ class Event(IntEnum):
     FIXED = 8  # ends fixed from here on
     FOUND = 16  # panel added on a lobe that overlapped
     JOINED = 32  # panels joined
+    PARTED = 64  # panels parted where strips between loaded ones are idle
 
 
 class Iterate(IntEnum):

@@ -9,7 +9,9 @@ from contact import workspace
 from contact.kernels.normal import influence
 from contact.kernels.normal.descent import FEWEST, MOST, N_LAYERS, descend, has_one_run
 from contact.kernels.normal.elimination import eliminate
-from contact.kernels.normal.panels import _is_overlapped, _summarise, end_moves, have_idle_part, remove_unloaded
+from contact.kernels.normal.ends import end_moves, have_idle_part
+from contact.kernels.normal.panels import _is_overlapped, _summarise
+from contact.kernels.normal.partition import remove_unloaded
 from contact.kernels.rows import N_VECTOR_ROWS, Vector
 
 
@@ -99,7 +101,7 @@ def test_a_removed_panel_leaves_nothing_to_the_next_one():
         vectors[Vector.END] = -1.0
         vectors[Vector.END, own] = vectors[Vector.P, own]
         assert remove_unloaded(n, 1 + unloaded, panels, vectors) == 1
-        end_moves(y, n, 1, panels, cosines, vectors, False)
+        end_moves(y, n, 1, panels, cosines, vectors, False, False)
         moves.append(vectors[Vector.R, 0])
     assert moves[0] == moves[1] != 0.0
 

@@ -18,18 +18,10 @@ from typing import Any, NamedTuple
 from contact.core import kernel
 from contact.kernels.normal.brackets import damp_turns, keep_between, note_sides
 from contact.kernels.normal.descent import descend, descend_offsets, has_one_run
+from contact.kernels.normal.ends import end_moves, have_idle_part
 from contact.kernels.normal.mixing import advance, mix
-from contact.kernels.normal.panels import (
-    EARLY_GHOST,
-    GHOST,
-    cut_idle,
-    end_moves,
-    extend_to_ghosts,
-    have_idle_part,
-    join_panels,
-    remove_unloaded,
-    start_panels,
-)
+from contact.kernels.normal.panels import EARLY_GHOST, GHOST, extend_to_ghosts, start_panels
+from contact.kernels.normal.partition import cut_idle, have_gap, join_panels, part_panels, remove_unloaded
 from contact.kernels.normal.residuals import fill_residuals, find_pressures
 from contact.kernels.normal.strip_system import edge_displacements
 from contact.kernels.normal.turned import turn_panels
@@ -49,8 +41,14 @@ FREEZE = 16
 PLAIN = 22
 #: The same of strips whose offsets count in full. Skewed strips are mixed then too, as long as their residuals fall.
 PLAIN_SKEWED = 18
+#: Iteration from which on strips that are not in line take half the step. A few of them swing for ever.
+DAMPED = 24
 #: Iteration from which on the ends keep between the places from which they moved outwards and inwards.
 BRACKET = 12
+#: Iterations after which strips that are idle between loaded ones count as a gap.
+LASTS = 3
+#: How often panels are parted from one start: parts that grow together again would be parted for ever.
+MOST_PARTED = 3
 #: Iterations in which a warm start has to come to rest. Then the iteration starts again from ANALYN's solution.
 WARM = 8
 
@@ -76,7 +74,7 @@ def _reset(problem, warm, state):
     """Set what belongs to a new start."""
     state.begun, state.warm = state.number, warm
     state.approach = problem.result.approach - problem.touch  # ANALYN's, until the first pressures are known
-    state.mixed, state.descending, state.searched = 0, 0, 0
+    state.mixed, state.descending, state.searched, state.parted, state.idle = 0, 0, 0, 0, 0
     state.last_error, state.best = math.inf, math.inf
 
 
@@ -145,7 +143,8 @@ def _evaluate(problem, state):
     if state.n_panels == 0:
         return False
     lost = state.n_panels < before
-    state.moved = end_moves(problem.sep.y, n, state.n_panels, panels, own.rule.cosines, vectors, age >= FREEZE)
+    calm = not skewed or state.error < CLOSE * math.sqrt(problem.tolerance) * state.load
+    state.moved = end_moves(problem.sep.y, n, state.n_panels, panels, own.rule.cosines, vectors, age >= FREEZE, calm)
     if not cut:
         note_sides(n, state.n_panels, panels, vectors, state.mixed == 0 or lost)
     state.cut, state.anew = 1 if cut else 0, 1 if lost or age == FREEZE else 0
@@ -195,6 +194,10 @@ def _fill_step(problem, state):
             descend(p * n, n, width, rule.descent, vectors, frozen)
             if skewed:
                 descend_offsets(p * n, n, width, rule.descent, vectors)
+    if skewed and age >= DAMPED:
+        for i in range(n * state.n_panels):
+            vectors[Vector.R, i] *= 0.5 if 0 < i % n < n - 1 else 1.0
+            vectors[Vector.OFFSET_R, i] *= 0.5
     state.left = 0.0
     if state.cut == 0:
         state.left = mix(n, state.n_panels, panels, vectors, state.load, state.mixed, skewed, own.space.lu)
@@ -217,6 +220,24 @@ def _search(problem, state, least):
         if state.n_panels > before:
             advance(own.rule.across.nodes.size, before, panels, vectors, problem.skew > 0.0)
     return found
+
+
+@kernel
+def _part(problem, state):
+    """Part panels that are idle between loaded strips. Return whether there are any."""
+    own, panels, vectors = problem.own, problem.panels, problem.own.space.vectors
+    n, age = own.rule.across.nodes.size, state.number - state.begun
+    if (
+        age >= FREEZE
+        or state.cut != 0
+        or state.parted == MOST_PARTED
+        or not have_gap(n, state.n_panels, own.rule.cosines, vectors)
+    ):
+        return False
+    state.n_panels = part_panels(n, state.n_panels, panels, own.rule.cosines, vectors)
+    state.parted, state.idle, state.mixed, state.best = state.parted + 1, 0, 0, math.inf
+    _note_event(problem, state, Event.PARTED.value)
+    return True
 
 
 @kernel
@@ -251,8 +272,10 @@ def accept(problem, state):
     close = CLOSE * math.sqrt(tolerance)
     exact = state.cut == 0 and error < tolerance * state.load and moved < 2.0 * tolerance
     settled = state.descending != 0 and state.left < LEFT * tolerance and error < close * state.load and moved < close
-    calm = problem.skew > 0.0 and age >= FREEZE and state.cut == 0 and error < ACCEPTABLE * state.load
+    calm = problem.skew > 0.0 and age >= FREEZE and state.cut == 0 and error < ACCEPTABLE * state.load and moved < close
     state.found, state.exact = 0, 1 if exact else 0
+    if _part(problem, state):
+        return False
     if exact or settled or calm:
         if not _search(problem, state, GHOST):
             state.converged = 1 if exact or settled else 0

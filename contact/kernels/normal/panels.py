@@ -1,28 +1,18 @@
-"""Panels of cosine-spaced strips that cover the patches of the strip half space: made, moved, opened, joined and removed."""
+"""Panels of cosine-spaced strips that cover the patches of the strip half space: made, laid out and opened."""
 
 import math
 
 from contact.core import entry, kernel
 from contact.kernels import cubic
-from contact.kernels.arrays import Matrix, Numbers
+from contact.kernels.arrays import Matrix
 from contact.kernels.cubic import locate
-from contact.kernels.normal.descent import END_LENGTH, END_SLOPE, END_STEP, END_VALUE
+from contact.kernels.normal.descent import END_LENGTH
 from contact.kernels.normal.strip_system import displacement_outside
 from contact.kernels.records import MAX_PATCHES
 from contact.kernels.rows import Sample, Strip, Vector
 
-_END_RANGE = (-3.0, 20.0)  # of one move outwards before the factor END_STEP, in widths of the end strip
-#: Squared ratio of pressures from which on a frozen end still moves outwards: they rise towards the corner of a punch.
-_PUNCH = 1.0
-#: Third over fourth pressure up to which the peak lies away from the end, and from which on it lies at the end.
-_AWAY, _NEAR = 0.8, 1.1
-#: First over second pressure at the exact half width, its change over a width of the end strip, the curvature of this relation,
-#: and the largest excess that counts in it (strip_halfspace.md 2, step 4).
-_FIRST_VALUE, _FIRST_SLOPE, _BEND_OUTWARDS, _BEND_INWARDS, _MOST = 0.36, 0.625, 0.55, 0.3, 1.6
 #: Largest offset of a strip's middle along x over the half length of the virtual penetration.
 _WITHIN = 0.95
-#: A panel narrower than this, over the widest, is removed.
-NO_PANEL = 1e-5
 #: Overlap outside the panels, over the approach, that counts as missed contact: early, and at convergence.
 EARLY_GHOST, GHOST = 2e-2, 1e-3
 #: Share of the overlap's width that a new panel leaves free at either end. An elastic patch is narrower than the overlap.
@@ -149,7 +139,7 @@ def half_lengths(vectors: Matrix, n: int, n_panels: int, delta: float) -> None:
 
 
 @kernel
-def _resample(old_low, old_high, low, high, cosines, vectors, first):
+def resample(old_low, old_high, low, high, cosines, vectors, first):
     """Transfer a²(y) and offsets of one panel to new ends, linear in y and constant beyond."""
     n = cosines.size - 1
     scale = 0.5 * (old_high - old_low)
@@ -195,99 +185,6 @@ def start_panels(n_strips, panel_strips, strips, result, panels, cosines, vector
             vectors[Vector.LN_A, p * n + i], vectors[Vector.OFFSET, p * n + i] = math.log(a), 0.0
             vectors[Vector.ACTIVE, p * n + i] = vectors[Vector.P, p * n + i] = 1.0
     return count
-
-
-@kernel
-def _idle(vectors, n, first, step):
-    """Return the number of idle strips at one end of a panel, at most n - 1."""
-    idle = 0
-    while idle < n - 1 and vectors[Vector.P, first + idle * step] <= 0.0:
-        idle += 1
-    return idle
-
-
-@entry
-def have_idle_part(n: int, n_panels: int, vectors: Matrix) -> bool:
-    """Return whether a seventh of a loaded panel is idle at one of its ends, so that it must be cut off."""
-    for p in range(n_panels):
-        first, last = p * n, p * n + n - 1
-        idle = _idle(vectors, n, first, 1)
-        if vectors[Vector.P, first + idle] > 0.0 and 7 * max(idle, _idle(vectors, n, last, -1)) > n:
-            return True
-    return False
-
-
-@kernel
-def _from_first_two(p0, p1):
-    """Return how far an end should move outwards by its first two pressures, in widths of the end strip.
-
-    The zero is that of an ellipse, the size is fitted to ellipses and flange roots. `p0` may be a tension.
-    """
-    if not p1 > 0.0:
-        return _END_RANGE[0]
-    u = p0 / p1 - _FIRST_VALUE
-    bend = _BEND_OUTWARDS * min(u, _MOST) if u > 0.0 else _BEND_INWARDS * u
-    return u / (_FIRST_SLOPE * (1.0 - bend))
-
-
-@kernel
-def end_move(vectors, n, first, step, cosines, frozen):
-    """Return the outward move of one end of a panel over its half width.
-
-    `first` is the strip at this end, `step` the step to its neighbour. On the exact half width the squared ratio q of
-    the second and third pressures has a known value. If the second pressure is high, the panel is too narrow. Where the
-    third pressure is not much below the fourth or above it, the peak lies at this end, and q depends on its shape. There the
-    ratio of the first two pressures counts instead. Its share replaces the first pressure in Vector.END. A `frozen` end
-    keeps its place, and idle strips with it, unless the pressure rises towards it.
-    """
-    p0, p1, p2 = vectors[Vector.END, first], vectors[Vector.P, first + step], vectors[Vector.P, first + 2 * step]
-    vectors[Vector.END, first] = 0.0
-    idle = _idle(vectors, n, first, step)
-    if idle >= 2:
-        return 0.0 if frozen else -(1.0 + cosines[idle])
-    if p2 <= 0.0:
-        return 0.0
-    q = (p1 / p2) ** 2
-    if frozen and (q < _PUNCH or p0 < p1):
-        return 0.0
-    wanted = (q - END_VALUE) / END_SLOPE
-    p3 = vectors[Vector.P, first + 3 * step] if n > 3 else math.inf
-    share = min(max((p2 / p3 - _AWAY) / (_NEAR - _AWAY), 0.0), 1.0) if p3 > 0.0 else 1.0
-    if share > 0.0:
-        share *= share * (3.0 - 2.0 * share)
-        wanted = (1.0 - share) * wanted + share * _from_first_two(p0, p1)
-        vectors[Vector.END, first] = share
-    wanted = min(max(wanted, _END_RANGE[0]), _END_RANGE[1])
-    return END_STEP * wanted * (1.0 + cosines[1])
-
-
-@entry
-def end_moves(
-    y: Numbers, n: int, n_panels: int, panels: Numbers, cosines: Numbers, vectors: Matrix, frozen: bool
-) -> float:
-    """Fill Vector.R of the end strips with the moves of all panels' ends. Return the largest move over the width."""
-    largest = 0.0
-    for p in range(n_panels):
-        first, last = p * n, p * n + n - 1
-        low, high = panels[2 * p], panels[2 * p + 1]
-        half = 0.5 * (high - low)
-        move = end_move(vectors, n, first, 1, cosines, frozen)
-        vectors[Vector.R, first] = max(low - half * move, y[0]) - low
-        move = end_move(vectors, n, last, -1, cosines, frozen)
-        vectors[Vector.R, last] = min(high + half * move, y[y.size - 1]) - high
-        largest = max(largest, max(abs(vectors[Vector.R, first]), abs(vectors[Vector.R, last])) / (high - low))
-    return largest
-
-
-@kernel
-def cut_idle(n, n_panels, panels, cosines, vectors):
-    """Move the ends by Vector.R without mixing, and transfer the half lengths."""
-    for p in range(n_panels):
-        first, last = p * n, p * n + n - 1
-        low, high = panels[2 * p], panels[2 * p + 1]
-        panels[2 * p], panels[2 * p + 1] = low + vectors[Vector.R, first], high + vectors[Vector.R, last]
-        _resample(low, high, panels[2 * p], panels[2 * p + 1], cosines, vectors, first)
-        vectors[Vector.ACTIVE, first : first + n] = 1.0
 
 
 @entry
@@ -385,69 +282,8 @@ def extend_to_ghosts(sep, g_least, delta, least, unit, n_panels, panels, own):
             p = nearest
             old_low, old_high = panels[2 * p], panels[2 * p + 1]
             panels[2 * p], panels[2 * p + 1] = min(low, old_low), max(high, old_high)
-            _resample(old_low, old_high, panels[2 * p], panels[2 * p + 1], cosines, vectors, p * n)
+            resample(old_low, old_high, panels[2 * p], panels[2 * p + 1], cosines, vectors, p * n)
             vectors[Vector.ACTIVE, p * n : p * n + n] = 1.0
         changed = True
         i = k + 2
     return n_panels, changed
-
-
-@kernel
-def _remove_panel(p, n, n_panels, panels, vectors):
-    """Remove panel p from the lists; those after it move up."""
-    for q in range(p, n_panels - 1):
-        panels[2 * q], panels[2 * q + 1] = panels[2 * q + 2], panels[2 * q + 3]
-        for i in range(n):
-            for row in (Vector.LN_A, Vector.ACTIVE, Vector.P, Vector.END, Vector.A, Vector.HALF, Vector.R):
-                vectors[row, q * n + i] = vectors[row, (q + 1) * n + i]
-            for row in (Vector.OFFSET, Vector.OFFSET_R):
-                vectors[row, q * n + i] = vectors[row, (q + 1) * n + i]
-
-
-@entry
-def remove_unloaded(n: int, n_panels: int, panels: Numbers, vectors: Matrix) -> int:
-    """Remove the panels that carry no load or have shrunk to nothing. Return the number of panels left."""
-    widest = 0.0
-    for p in range(n_panels):
-        widest = max(widest, panels[2 * p + 1] - panels[2 * p])
-    p = 0
-    while p < n_panels:
-        loaded = False
-        if panels[2 * p + 1] - panels[2 * p] < NO_PANEL * widest:
-            _remove_panel(p, n, n_panels, panels, vectors)
-            n_panels -= 1
-            continue
-        for i in range(n):
-            loaded = loaded or vectors[Vector.P, p * n + i] > 0.0
-        if loaded:
-            p += 1
-        else:
-            _remove_panel(p, n, n_panels, panels, vectors)
-            n_panels -= 1
-    return n_panels
-
-
-@kernel
-def join_panels(n, n_panels, panels, cosines, vectors):
-    """Join panels that overlap into one. Return their number and whether any were joined."""
-    joined = False
-    p = 0
-    while p < n_panels:
-        q = p + 1
-        while q < n_panels:
-            if panels[2 * q] < panels[2 * p + 1] and panels[2 * p] < panels[2 * q + 1]:
-                wider = p if panels[2 * p + 1] - panels[2 * p] >= panels[2 * q + 1] - panels[2 * q] else q
-                low, high = min(panels[2 * p], panels[2 * q]), max(panels[2 * p + 1], panels[2 * q + 1])
-                _resample(panels[2 * wider], panels[2 * wider + 1], low, high, cosines, vectors, wider * n)
-                for i in range(n):
-                    vectors[Vector.LN_A, p * n + i] = vectors[Vector.LN_A, wider * n + i]
-                    vectors[Vector.OFFSET, p * n + i] = vectors[Vector.OFFSET, wider * n + i]
-                vectors[Vector.ACTIVE, p * n : p * n + n] = 1.0
-                panels[2 * p], panels[2 * p + 1] = low, high
-                _remove_panel(q, n, n_panels, panels, vectors)
-                n_panels -= 1
-                joined = True
-            else:
-                q += 1
-        p += 1
-    return n_panels, joined

@@ -20,7 +20,8 @@ from contact.core import kernel
 from contact.kernels.cubic import locate
 from contact.kernels.enumerations import LoadKind, Status
 from contact.kernels.normal.analyn import analyn
-from contact.kernels.normal.iteration import ACCEPTABLE, FREEZE, TOLERANCE, Problem, begin, finish, step
+from contact.kernels.normal.ends import SPUR
+from contact.kernels.normal.iteration import ACCEPTABLE, CLOSE, FREEZE, TOLERANCE, Problem, begin, finish, step
 from contact.kernels.normal.orientation import is_image, turn_back, turn_samples
 from contact.kernels.normal.peak import peak_between_strips
 from contact.kernels.normal.start import face, forget, recall, remember
@@ -32,8 +33,8 @@ from contact.kernels.rows import Sample, Strip, Vector
 MAX_ITERATIONS = 60
 #: An iterate that did not converge is returned if it changes by less than this; otherwise ANALYN's solution is.
 USABLE = 0.02
-#: Pressure of the last strip at an end over those of the next two, from which on it is a spur: the end has found no rest.
-SPUR = 1.2
+#: Pressure of a strip over that of its neighbours, from which on it is no peak but swings, where offsets count in full.
+LONE = 2.0
 #: Largest mean slope of the line of the strips' middles at which strips count as in line.
 SLIGHT = 0.045
 #: Distance of a patch from the end of the data, over its width, below which the data cut it off.
@@ -108,9 +109,13 @@ def _skew(n, strips):
 
 
 @kernel
-def _has_spur(n, n_panels, vectors):
-    """Return whether the last strip at an end of a panel has the largest pressure, far above that of its neighbours."""
-    largest = 0.0
+def _level_spurs(n, n_panels, vectors):
+    """Return whether the last strip at an end of a panel has the largest pressure, far above that of its neighbours.
+
+    The end then lies inside the contact. Where the neighbours' pressures do not rise towards it, as they do at the corner of
+    a punch, the strip gets the pressure of the second next one. It would tell no peak.
+    """
+    largest, found = 0.0, False
     for i in range(n * n_panels):
         largest = max(largest, vectors[Vector.P, i])
     for p in range(n_panels):
@@ -119,10 +124,23 @@ def _has_spur(n, n_panels, vectors):
             while k < n - 3 and vectors[Vector.P, end] <= 0.0:
                 end += inwards
                 k += 1
-            inner = max(vectors[Vector.P, end + inwards], vectors[Vector.P, end + 2 * inwards])
-            if vectors[Vector.P, end] >= largest and vectors[Vector.P, end] > SPUR * inner:
-                return True
-    return False
+            near, far = vectors[Vector.P, end + inwards], vectors[Vector.P, end + 2 * inwards]
+            if vectors[Vector.P, end] >= largest and vectors[Vector.P, end] > SPUR * max(near, far):
+                found = True
+                if near < far:
+                    vectors[Vector.P, end] = far
+    return found
+
+
+@kernel
+def _stands_alone(total, vectors):
+    """Return whether one strip has the largest pressure, and both its neighbours have less than half of it."""
+    top = 0
+    for i in range(total):
+        top = i if vectors[Vector.P, i] > vectors[Vector.P, top] else top
+    before = vectors[Vector.P, top - 1] if top > 0 else 0.0
+    after = vectors[Vector.P, top + 1] if top < total - 1 else 0.0
+    return vectors[Vector.P, top] > LONE * max(before, after)
 
 
 @kernel
@@ -184,10 +202,13 @@ def _solve(sep, case, own, result):
         forget(memory)
         return n_strips
     remember(n_panels if state.number - state.begun < FREEZE else 0, n, start_low, start_high, skew > 0.0, own)
+    spur = _level_spurs(n, n_panels, space.vectors)
+    swings = skew >= 1.0 and _stands_alone(n * n_panels, space.vectors)
     count = _report(problem, state.approach, n_panels)
     result.pmax = peak_between_strips(sep, count, unit, own)
-    rough = state.error > ACCEPTABLE * state.load or _has_spur(n, n_panels, space.vectors)
-    if not converged and rough and result.status != Status.OUT_OF_RANGE:
+    acceptable = CLOSE * math.sqrt(tolerance) if skew > 0.0 else ACCEPTABLE
+    rough = spur or state.error > max(acceptable, ACCEPTABLE) * state.load
+    if ((not converged and rough) or swings) and result.status != Status.OUT_OF_RANGE:
         result.status = Status.NOT_CONVERGED
     elif result.status == Status.OUT_OF_RANGE:
         low, high = panels[0], panels[2 * n_panels - 1]

@@ -9,6 +9,10 @@ from contact.kernels.normal.influence import N_X, at_centre, column, in_row, log
 from contact.kernels.normal.many_strips import displacement, fill_ln_X
 from contact.kernels.rows import Pair, Vector
 
+#: Overlap of an idle strip, over the approach, from which on it is loaded again in the first rounds and in later ones. Narrow
+#: strips at an end overlap by little, and the pressure beside a strip that is left out is singular.
+_OVERLAP = (1e-6, 1e-5, 1e-4)
+
 
 @kernel
 def _fill_off_line(first, n, half, own, unit):
@@ -144,7 +148,8 @@ def solve_active(n, n_panels, space, by_load, amount):
     vectors, matrix, lu = space.vectors, space.matrix, space.lu
     total = n * n_panels
     delta = 0.0
-    for _ in range(20):
+    for turn in range(20):
+        overlap = _OVERLAP[min(turn, len(_OVERLAP) - 1)]
         m = 0
         for i in range(total):
             if vectors[Vector.ACTIVE, i] != 0.0:
@@ -180,7 +185,7 @@ def solve_active(n, n_panels, space, by_load, amount):
                 for r in range(m):
                     j = int(vectors[Vector.INDEX, r])
                     u += matrix[j, i] * vectors[Vector.P, j]
-                if delta - vectors[Vector.GAP, i] - u > 1e-4 * delta:
+                if delta - vectors[Vector.GAP, i] - u > overlap * delta:
                     vectors[Vector.ACTIVE, i] = 1.0
                     changed = True
         if not changed:

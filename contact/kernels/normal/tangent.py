@@ -21,6 +21,7 @@ from contact.kernels.arrays import Case, Result, Samples, Workspace
 from contact.kernels.enumerations import Status
 from contact.kernels.normal.analyn import prepare
 from contact.kernels.normal.descent import END_LENGTH
+from contact.kernels.normal.ends import end_move
 from contact.kernels.normal.influence import (
     LN_T_LOW,
     N_T,
@@ -34,7 +35,7 @@ from contact.kernels.normal.influence import (
 )
 from contact.kernels.normal.lay import least_point
 from contact.kernels.normal.orientation import turn_back, turn_samples
-from contact.kernels.normal.panels import end_move, lay_panels
+from contact.kernels.normal.panels import lay_panels
 from contact.kernels.normal.start import MEM_ENDS, MEM_IMAGE, MEM_PANELS
 from contact.kernels.normal.strip_halfspace import write_strips
 from contact.kernels.rows import Sample, Strip, Tangent, Vector
@@ -173,7 +174,7 @@ def _fill_end_slopes(n, p, cosines, vectors, tangent):
                 vectors[Vector.P, at] = max(value, 0.0)
                 if k == 0:
                     vectors[Vector.END, first] = value
-            move = end_move(vectors, n, first, step, cosines, False)
+            move = end_move(vectors, n, first, step, cosines, False, False)
             if q < 0:
                 before = move
             else:

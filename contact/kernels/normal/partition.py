@@ -1,0 +1,146 @@
+"""Partition of the contact into panels: idle parts cut off, panels parted, joined and removed."""
+
+from contact.core import entry, kernel
+from contact.kernels.arrays import Matrix, Numbers
+from contact.kernels.normal.panels import resample
+from contact.kernels.records import MAX_PATCHES
+from contact.kernels.rows import Vector
+
+#: A panel narrower than this, over the widest, is removed.
+NO_PANEL = 1e-5
+#: Width of idle strips between loaded ones, over that of the panel, from which on it is parted there, and the least number
+#: of loaded strips on either side.
+_GAP, _BESIDE = 0.1, 3
+
+
+@kernel
+def cut_idle(n, n_panels, panels, cosines, vectors):
+    """Move the ends by Vector.R without mixing, and transfer the half lengths."""
+    for p in range(n_panels):
+        first, last = p * n, p * n + n - 1
+        low, high = panels[2 * p], panels[2 * p + 1]
+        panels[2 * p], panels[2 * p + 1] = low + vectors[Vector.R, first], high + vectors[Vector.R, last]
+        resample(low, high, panels[2 * p], panels[2 * p + 1], cosines, vectors, first)
+        vectors[Vector.ACTIVE, first : first + n] = 1.0
+
+
+@kernel
+def _widest_gap(n, cosines, pressures):
+    """Return the first and the last strip of the widest idle part between loaded strips of a panel; -1, -1 for none.
+
+    At least `_BESIDE` loaded strips lie on either side of it.
+    """
+    first, last, widest, before, total = -1, -1, _GAP, 0, 0
+    for i in range(n):
+        total += 1 if pressures[i] > 0.0 else 0
+    i = 0
+    while i < n:
+        if pressures[i] > 0.0:
+            before += 1
+            i += 1
+            continue
+        k = i
+        while k < n and not pressures[k] > 0.0:
+            k += 1
+        width = 0.5 * (cosines[k] - cosines[i])
+        if before >= _BESIDE and total - before >= _BESIDE and width > widest:
+            first, last, widest = i, k - 1, width
+        i = k
+    return first, last
+
+
+@kernel
+def part_panels(n, n_panels, panels, cosines, vectors):
+    """Part panels where strips between loaded ones are idle. Return their number.
+
+    Both parts begin at the loaded strips. Strips of one panel would be wasted between them, and the patches' inner ends would
+    lie at the sides of strips.
+    """
+    known = n_panels
+    for p in range(known):
+        first, last = _widest_gap(n, cosines, vectors[Vector.P, p * n : p * n + n])
+        if first < 0 or n_panels == MAX_PATCHES:
+            continue
+        low, high = panels[2 * p], panels[2 * p + 1]
+        centre, half, q = 0.5 * (low + high), 0.5 * (high - low), n_panels
+        for i in range(n):
+            for row in (Vector.LN_A, Vector.OFFSET, Vector.A):
+                vectors[row, q * n + i] = vectors[row, p * n + i]
+        panels[2 * p + 1], panels[2 * q] = centre + half * cosines[first], centre + half * cosines[last + 1]
+        panels[2 * q + 1] = high
+        resample(low, high, panels[2 * p], panels[2 * p + 1], cosines, vectors, p * n)
+        resample(low, high, panels[2 * q], panels[2 * q + 1], cosines, vectors, q * n)
+        for part in (p, q):
+            vectors[Vector.ACTIVE, part * n : part * n + n] = vectors[Vector.P, part * n : part * n + n] = 1.0
+        n_panels += 1
+    return n_panels
+
+
+@entry
+def have_gap(n: int, n_panels: int, cosines: Numbers, vectors: Matrix) -> bool:
+    """Return whether a panel has a wide idle part between loaded strips, and there is room for one more panel."""
+    for p in range(n_panels):
+        if _widest_gap(n, cosines, vectors[Vector.P, p * n : p * n + n])[0] > 0:
+            return n_panels < MAX_PATCHES
+    return False
+
+
+@kernel
+def _remove_panel(p, n, n_panels, panels, vectors):
+    """Remove panel p from the lists; those after it move up."""
+    for q in range(p, n_panels - 1):
+        panels[2 * q], panels[2 * q + 1] = panels[2 * q + 2], panels[2 * q + 3]
+        for i in range(n):
+            for row in (Vector.LN_A, Vector.ACTIVE, Vector.P, Vector.END, Vector.A, Vector.HALF, Vector.R):
+                vectors[row, q * n + i] = vectors[row, (q + 1) * n + i]
+            for row in (Vector.OFFSET, Vector.OFFSET_R):
+                vectors[row, q * n + i] = vectors[row, (q + 1) * n + i]
+
+
+@entry
+def remove_unloaded(n: int, n_panels: int, panels: Numbers, vectors: Matrix) -> int:
+    """Remove the panels that carry no load or have shrunk to nothing. Return the number of panels left."""
+    widest = 0.0
+    for p in range(n_panels):
+        widest = max(widest, panels[2 * p + 1] - panels[2 * p])
+    p = 0
+    while p < n_panels:
+        loaded = False
+        if panels[2 * p + 1] - panels[2 * p] < NO_PANEL * widest:
+            _remove_panel(p, n, n_panels, panels, vectors)
+            n_panels -= 1
+            continue
+        for i in range(n):
+            loaded = loaded or vectors[Vector.P, p * n + i] > 0.0
+        if loaded:
+            p += 1
+        else:
+            _remove_panel(p, n, n_panels, panels, vectors)
+            n_panels -= 1
+    return n_panels
+
+
+@kernel
+def join_panels(n, n_panels, panels, cosines, vectors):
+    """Join panels that overlap into one. Return their number and whether any were joined."""
+    joined = False
+    p = 0
+    while p < n_panels:
+        q = p + 1
+        while q < n_panels:
+            if panels[2 * q] < panels[2 * p + 1] and panels[2 * p] < panels[2 * q + 1]:
+                wider = p if panels[2 * p + 1] - panels[2 * p] >= panels[2 * q + 1] - panels[2 * q] else q
+                low, high = min(panels[2 * p], panels[2 * q]), max(panels[2 * p + 1], panels[2 * q + 1])
+                resample(panels[2 * wider], panels[2 * wider + 1], low, high, cosines, vectors, wider * n)
+                for i in range(n):
+                    vectors[Vector.LN_A, p * n + i] = vectors[Vector.LN_A, wider * n + i]
+                    vectors[Vector.OFFSET, p * n + i] = vectors[Vector.OFFSET, wider * n + i]
+                vectors[Vector.ACTIVE, p * n : p * n + n] = 1.0
+                panels[2 * p], panels[2 * p + 1] = low, high
+                _remove_panel(q, n, n_panels, panels, vectors)
+                n_panels -= 1
+                joined = True
+            else:
+                q += 1
+        p += 1
+    return n_panels, joined

@@ -1,0 +1,88 @@
+"""Ends of the panels: they arrive however narrow the strips are, and patches that lie apart have panels of their own."""
+
+import math
+
+import numpy as np
+import pytest
+
+import contact
+from contact.geometry import profile, wheelset
+from contact.kernels.normal.ends import end_moves
+from contact.kernels.normal.partition import have_gap
+from contact.kernels.rows import N_VECTOR_ROWS, Vector
+from contact.pair import WheelRailPair
+
+NO_CREEP = contact.Creepage()
+PAIR = wheelset.Pair(profile.s1002(), profile.rail_60e1(inclination=1 / 40))
+
+
+def patch(y, yaw=0.0):
+    """Return separation and load of the largest patch [N] at y [mm] and yaw [mrad] under 80 kN."""
+    patches = PAIR.contacts(wheelset.Pose(y=1e-3 * y, yaw=1e-3 * yaw), load=80e3)
+    largest = max(patches, key=lambda one: one.load)
+    return largest.separation, largest.load
+
+
+@pytest.mark.parametrize(("y", "yaw"), [(4.75, 0), (4.8, 0), (5.6, 0), (5.6, 2), (1.963, 0), (1.963, 8)])
+def test_refined_strips_settle_where_a_second_lobe_is_narrow(y, yaw):
+    """At y = 4.8 mm 20 to 160 strips gave 1259, 1260, 2017 and 6382 MPa: narrow strips kept the ends from where they belong."""
+    separation, load = patch(y, yaw)
+    found = [contact.solve(separation, NO_CREEP, load=load, n_strips=n) for n in (20, 40, 80, 160)]
+    peaks = np.array([sol.max_pressure for sol in found])
+    assert np.all(np.abs(np.diff(peaks) / peaks[:-1]) < 0.005)
+    assert abs(found[3].area / found[2].area - 1.0) < 0.01
+
+
+@pytest.mark.parametrize("n", [20, 40, 80, 160])
+@pytest.mark.parametrize("off", [-0.02, -0.01, 0.01, 0.02])
+def test_one_move_brings_an_end_most_of_the_way_whatever_the_number_of_strips(n, off):
+    """The pressure is an ellipse over a part of the panel, or continues beyond it. The rule moves by .6 of what is missing."""
+    cosines = -np.cos(np.arange(n + 1) * math.pi / n)
+    vectors, panels = np.zeros((N_VECTOR_ROWS, n)), np.array([-1.0, 1.0])
+    middles = 0.5 * (cosines[:-1] + cosines[1:])
+    high = 1.0 + 2.0 * off
+    p = np.sqrt(np.maximum((middles + 1.0) * (high - middles), 0.0))
+    vectors[Vector.P], vectors[Vector.END], vectors[Vector.HALF] = p, p, 0.5 * np.diff(cosines)
+    end_moves(np.array([-10.0, 10.0]), n, 1, panels, cosines, vectors, False, False)
+    assert vectors[Vector.R, -1] == pytest.approx(2.0 * off, abs=0.75 * abs(2.0 * off))
+    assert vectors[Vector.R, -1] * off > 0.0
+
+
+@pytest.mark.parametrize(
+    ("pressures", "gap"),
+    [
+        ([1] * 8 + [0] * 4 + [1] * 8, True),
+        ([1] * 8 + [0] + [1] * 11, False),  # 8 % of the width
+        ([0] * 4 + [1] * 12 + [0] * 4, False),
+        ([1] * 2 + [0] * 6 + [1] * 12, False),  # two strips are no patch
+        ([1] * 20, False),
+        ([0] * 20, False),
+    ],
+)
+def test_wide_idle_parts_between_loaded_strips_are_gaps(pressures, gap):
+    cosines = -np.cos(np.arange(21) * math.pi / 20)
+    vectors = np.zeros((N_VECTOR_ROWS, 20))
+    vectors[Vector.P] = pressures
+    assert have_gap(20, 1, cosines, vectors) == gap
+
+
+def test_two_patches_that_began_as_one_panel_are_resolved_by_a_panel_each():
+    """The strips between them were idle, and the others so wide that the area was 2.8 % off that of 160 strips."""
+    separation, load = patch(5.37)
+    found = [contact.solve(separation, NO_CREEP, load=load, n_strips=n) for n in (20, 160)]
+    assert [sol.n_patches for sol in found] == [2, 2]
+    assert found[0].max_pressure == pytest.approx(found[1].max_pressure, rel=1e-3)
+    assert found[0].strips.y.size == 40
+
+
+@pytest.mark.parametrize("yaw", [0.0, 2e-3])
+@pytest.mark.parametrize("y", [5.0e-3, 5.01e-3, 5.17e-3, 5.38e-3, 5.4e-3, 5.42e-3])
+def test_the_same_height_has_one_answer(y, yaw):
+    """A height found under a load, then given: at y = 5.01 mm the peaks were 2.4 % apart, with one panel and with two."""
+    pair = WheelRailPair(PAIR)
+    velocity = wheelset.Velocity(forward=20.0)
+    found = pair.solve(wheelset.Pose(y=y, yaw=yaw), velocity, vertical=80e3)
+    pair.forget()
+    again = pair.solve(wheelset.Pose(y=y, yaw=yaw, z=found.z), velocity)
+    peaks = [max(c.max_pressure for c in sol.contacts) for sol in (found, again)]
+    assert peaks[0] == pytest.approx(peaks[1], rel=1e-3)
