@@ -19,6 +19,7 @@ _RETURN, _RETURN_OF_CODE = (
     0.7,
 )  # greatest distance of the points around over both steps; of zeros and repeated values
 _FEW, _SHARE, _SHARE_AT_END = 3, 0.05, 0.02  # points beside the profile that may be false together
+_SHARE_OF_ZEROS = 0.25  # of the points that may be false in one run with 0 in a column
 _SHARE_REPEATED = 0.1  # of the points that may stand at several places
 _MOST_AT_ENDS = 4  # jumps of a scan that may all lead to false points at its ends; drawings of long lines have more
 _TOGETHER = 3  # unlike false points beside each other
@@ -95,7 +96,10 @@ def _aside(points: Points) -> Mask:
     for k in range(1, len(bounds) - 2):
         for m in range(1, min(_TOGETHER, len(bounds) - 2 - k) + 1):
             a, b = bounds[k], bounds[k + m]
-            if b - a > n // 2 or _unlike(points[a:b]) > (few if m == 1 else _FEW):
+            most = few if m == 1 else _FEW
+            if m == 1 and (points[a:b] == 0.0).all(axis=0).any():
+                most = int(_SHARE_OF_ZEROS * n)
+            if b - a > n // 2 or _unlike(points[a:b]) > most:
                 break
             code = _code(points[a:b], usual)
             detour = _detour(points[a - 1], points[a:b], points[b], code)
@@ -111,7 +115,10 @@ def _aside(points: Points) -> Mask:
         for end, rest in ((slice(0, bounds[1]), slice(bounds[1], n)), (slice(bounds[-2], n), slice(0, bounds[-2]))):
             nearest = points[end][::-1] if end.start == 0 else points[end]
             scan = points[rest] if end.start == 0 else points[rest][::-1]
-            if _unlike(nearest) <= few < len(scan) and _beside(nearest, scan, usual):
+            zeros = (nearest == 0.0).all(axis=0).any()
+            if _unlike(nearest) <= (_SHARE_OF_ZEROS * n if zeros else few) < len(scan) and _beside(
+                nearest, scan, usual
+            ):
                 found[end] = True
     return found
 
@@ -164,7 +171,7 @@ def _zeros(points: Points) -> Mask:
     least = 1.2 * _usual_step(points)
     for column in points.T:
         for a, b in _runs(column == 0.0):
-            if a > 0 and b < n and b - a <= max(_FEW, _SHARE * n) and not np.ptp(points[a:b], axis=0).all():
+            if a > 0 and b < n and b - a <= max(_FEW, _SHARE_OF_ZEROS * n) and not np.ptp(points[a:b], axis=0).all():
                 there, back = points[a] - points[a - 1], points[b] - points[b - 1]
                 far = min(np.hypot(*there), np.hypot(*back)) > least or b - a > 1 or not points[a:b].any()
                 found[a:b] |= bool(far and there @ back < 0.0)

@@ -74,7 +74,9 @@ def _downwards(points: Points, kind: Kind) -> Points:
     if kind == "rail":
         down = z.mean() > np.median(z)
     else:
-        down = z.max() - np.median(z) > np.median(z) - z[_tread(points)].min()
+        across = points[np.argsort(points[:, 0], kind="stable")]
+        middle = np.median(np.interp(np.linspace(*across[[0, -1], 0], 201), *across.T))  # also with parts missing
+        down = z.max() - middle > middle - z[_tread(points)].min()
     return points if down else points * [1.0, -1.0]
 
 

@@ -18,6 +18,8 @@ _BINS, _DOUBLE, _APART, _FLAT = (
 # of the whole height; and least height over width of an outline
 _EDGE = 0.15  # of the height: parts at the top and the bottom whose widths are compared
 _ALIKE = 0.1  # widths of head and foot that differ less are not told apart
+_AT_END, _WEB = 0.75, 0.35  # of the height: from there on ends lie at an end; of the wider end: the width of a web
+_HEAD = 0.1  # of the height: the least height of a head, the foot is flatter
 _INWARDS = 0.02  # of the width: by so much an outline turns in below the head
 _LOST = 0.02  # of the width: a repair that takes away more is told
 
@@ -114,9 +116,9 @@ def head_of(points: Points, kind: Kind, downwards: bool) -> tuple[Points, list[F
             Finding(Fault.OUTLINE, seen, "give the running surface only, as by rows=(first, last)", points[:0])
         ]
     closed = np.hypot(*(points[-1] - points[0])) < _CLOSED * np.hypot(width, height)
-    sign = _upwards(points, closed) or float(downwards)
+    sign = _upwards(points, closed) or float(downwards and closed)
     if not sign:
-        cure = "head and foot are as wide as each other: give the head only, as by rows=(first, last)"
+        cure = "which end is the head is not seen: give the head only, as by rows=(first, last)"
         return points, [Finding(Fault.OUTLINE, seen, cure, points[:0])]
     y, depth = points[:, 0], sign * points[:, 1]
     top = np.flatnonzero(depth < depth.min() + 0.01 * height)
@@ -127,22 +129,34 @@ def head_of(points: Points, kind: Kind, downwards: bool) -> tuple[Points, list[F
     forwards = points[crown:], points[crown::-1]
     right, left = (_to_the_corner(side, _INWARDS * width) for side in forwards)
     head = points[crown - left : crown + right + 1]
+    if np.ptp(head[:, 1]) < _HEAD * height:
+        return points, [
+            Finding(Fault.OUTLINE, seen, "no head is seen: give the head only, as by rows=(first, last)", points[:0])
+        ]
     told = f"kept is its head, {len(head)} of {len(points)} points and {1e3 * np.ptp(head[:, 0]):.3g} mm wide"
     return head, [Finding(Fault.OUTLINE, seen, told, points[:0])]
 
 
 def _upwards(points: Points, closed: bool) -> float:
-    """Return 1 if z points down in a rail's outline, -1 if up, 0 if that is not seen: its head is narrower than its foot."""
+    """Return 1 if z points down in a rail's outline, -1 if up, 0 if that is not seen: its head is narrower than its foot.
+
+    The ends of an open outline lie opposite the head, at the web or the foot; those of a grooved rail may lie at its lip.
+    """
     y, z = points.T
     low, high = z.min(), z.max()
-    if not closed:  # the ends lie at the web or the foot
-        ends = 0.5 * (z[0] + z[-1])
-        return 1.0 if ends > 0.5 * (low + high) else -1.0
     edge = _EDGE * (high - low)
     at_low, at_high = (float(np.ptp(y[inside])) for inside in (z < low + edge, z > high - edge))
-    if abs(at_low - at_high) < _ALIKE * max(at_low, at_high):
+    clear = abs(at_low - at_high) > _ALIKE * max(at_low, at_high)
+    by_width = (1.0 if at_low < at_high else -1.0) if clear else 0.0
+    if closed:
+        return by_width
+    from_low = (z[[0, -1]] - low) / (high - low)
+    if from_low.max() - from_low.min() > 0.5:  # from the head to the foot: one half of a rail
         return 0.0
-    return 1.0 if at_low < at_high else -1.0
+    by_ends = 1.0 if from_low.min() > _AT_END else -1.0 if from_low.max() < 1.0 - _AT_END else 0.0
+    if by_ends * by_width < 0.0:  # the narrow end is a piece of the web, or the head of a grooved rail
+        return by_ends if min(at_low, at_high) < _WEB * max(at_low, at_high) else by_width
+    return by_ends or by_width
 
 
 def _to_the_corner(side: Points, inwards: float) -> int:

@@ -271,3 +271,13 @@ def test_a_column_that_is_constant_asks_for_the_columns(tmp_path):
     with pytest.raises(ContactError, match=r"all points have y = 0 m; which columns hold y and z\?"):
         profile.read(path, **COLUMNS)
     assert profile.read(path, columns=(2, 3), **COLUMNS).y.size == WHEEL.y.size
+
+
+@pytest.mark.parametrize(("start", "end"), [(0, 60), (100, 140), (250, 290)])
+def test_a_long_run_with_zero_heights_is_false(start, end, tmp_path):
+    rows = rows_of(WHEEL)
+    rows[start:end] = [f"{row.split(' ')[0]} 0" for row in rows[start:end]]
+    path = tmp_path / "wheel.txt"
+    path.write_text("\n".join(rows))
+    with pytest.warns(ProfileWarning, match=f"false rows: {end - start} of 593"):
+        assert profile.read(path, **COLUMNS).y.size == 593 - (end - start)

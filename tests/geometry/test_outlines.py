@@ -150,3 +150,13 @@ def test_choices_outside_the_file_are_refused(option, said, tmp_path):
         profile.read(path, **option, **COLUMNS)
     path.write_text(table(1e3 * WHEEL.y, 1e3 * WHEEL.z, "x {:.7f} 3 {:.7f}"))
     same(profile.read(path, columns=(2, 4), **COLUMNS), WHEEL, 1e-7)
+
+
+def test_half_an_outline_is_refused_and_never_cut_to_its_foot(tmp_path):
+    points = section()
+    path = tmp_path / "half.csv"
+    for half in (points[: len(points) // 2], points[len(points) // 2 :]):
+        path.write_text(table(*half.T, "{:.7f};{:.7f}"))
+        for repair in (False, True):
+            with pytest.raises(ContactError, match="closed outline: .* which end is the head is not seen"):
+                profile.read(path, kind="rail", unit="mm", side="right", repair=repair)
