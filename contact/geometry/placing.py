@@ -75,7 +75,8 @@ def _downwards(points: Points, kind: Kind) -> Points:
         down = z.mean() > np.median(z)
     else:
         across = points[np.argsort(points[:, 0], kind="stable")]
-        middle = np.median(np.interp(np.linspace(*across[[0, -1], 0], 201), *across.T))  # also with parts missing
+        even = np.linspace(across[0, 0], across[-1, 0], 201)
+        middle = np.median(np.interp(even, across[:, 0], across[:, 1]))  # also with parts missing
         down = z.max() - middle > middle - z[_tread(points)].min()
     return points if down else points * [1.0, -1.0]
 

@@ -158,5 +158,5 @@ def test_half_an_outline_is_refused_and_never_cut_to_its_foot(tmp_path):
     for half in (points[: len(points) // 2], points[len(points) // 2 :]):
         path.write_text(table(*half.T, "{:.7f};{:.7f}"))
         for repair in (False, True):
-            with pytest.raises(ContactError, match="closed outline: .* which end is the head is not seen"):
+            with pytest.raises(ContactError, match=r"closed outline: .* which end is the head is not seen"):
                 profile.read(path, kind="rail", unit="mm", side="right", repair=repair)
