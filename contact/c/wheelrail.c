@@ -59,7 +59,9 @@ static double is_wide(void) { return 0.0; }
     X(NO_CONTACT, "there is no contact, so no stress")                                                           \
     X(NO_FIELDS, "the tangential method gives forces only")                                                      \
     X(COARSE, "no element lies inside a patch")                                                                  \
-    X(UNEVEN, "the steps are not equal")
+    X(UNEVEN, "the steps are not equal")                                                                         \
+    X(UPSIDE_DOWN, "the profile is upside down: z points down, so give -z")                                      \
+    X(MIRRORED, "the profile is mirrored: the flange lies at negative y, so give -y and z in reverse order")
 
 enum { R_NONE,
 #define X(name, text) R_##name,

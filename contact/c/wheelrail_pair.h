@@ -87,6 +87,30 @@ static int check_profile(const wr_profile *p, const int arguments[4]) {
     return finite_all(p->angle, p->n, arguments[3]);
 }
 
+/* Whether z points down and the flange lies at negative y, as Python's reader asks of a file
+ * (contact.geometry.inspection.misplaced).  Most of a wheel's width is tread, and of a rail's width crown, at small z.  A shape
+ * that is flat, or as deep at both ends, is not judged. */
+static int check_place(const wr_profile *p, int is_wheel, const int arguments[4]) {
+    double low = p->z[0], high = p->z[0], area = 0.0, width = 0.0;
+    int64_t deepest = 0;
+    for (int64_t i = 1; i < p->n; i++) {
+        const double dy = fabs(p->y[i] - p->y[i - 1]);
+        area += 0.5 * dy * (p->z[i] + p->z[i - 1]);
+        width += dy;
+        if (p->z[i] < low) low = p->z[i];
+        if (p->z[i] > high) high = p->z[i], deepest = i;
+    }
+    const double depth = high - low, extent = fabs(p->y[p->n - 1] - p->y[0]);
+    if (depth < 0.08 * extent) return 0;
+    if (area > 0.5 * (low + high) * width) return bad(arguments[2], R_UPSIDE_DOWN);
+    if (!is_wheel) return 0;
+    const int ascending = p->y[p->n - 1] > p->y[0];
+    const double gauge_end = p->z[ascending ? 0 : p->n - 1], field_end = p->z[ascending ? p->n - 1 : 0];
+    const double middle = 0.5 * (p->y[0] + p->y[p->n - 1]);
+    if (p->y[deepest] > middle && gauge_end < low + 0.5 * depth && field_end > gauge_end) return bad(arguments[1], R_MIRRORED);
+    return 0;
+}
+
 /* Slopes of the C2 cubic spline through (u, f); the end segments are parabolas.  As contact.geometry.outline. */
 static void spline_slopes(int64_t n, const double *h, const double *f, double *middle, double *right, double *slopes) {
 #define D(i) ((f[(i) + 1] - f[i]) / h[i])
@@ -176,6 +200,8 @@ int wr_pair_init(const wr_pair_options *options, const wr_profile *wheel, const 
     TRY(check_pair_options(options));
     TRY(check_profile(wheel, of_wheel));
     TRY(check_profile(rail, of_rail));
+    TRY(check_place(wheel, 1, of_wheel));
+    TRY(check_place(rail, 0, of_rail));
     size_t needed;
     TRY(wr_pair_size(options, wheel->n, rail->n, &needed));
     TRY(room(memory, bytes, needed));

@@ -160,7 +160,8 @@ typedef struct {
     int64_t tilted; /* surfaces: 1 if the frame of a patch follows the rail's normal in all directions, 0 if it turns about x */
 } wr_pair_options;
 
-/* A profile in the convention of the right side, for either side: points from the field side of y < 0 on.
+/* A profile in the convention of the right side, for either side: y is negative on the gauge side, where the flange lies, and
+ * positive on the field side; z points down.  A wheel or a rail that is upside down and a mirrored wheel are refused.
  * Wheel: origin at the tape circle.  Rail: already inclined.  docs: profiles.md. */
 typedef struct {
     int64_t n;           /* 3 to 100000 */
