@@ -74,7 +74,7 @@ def judged(
     wavelength: float | None,
 ) -> Inspection:
     """Return what is wrong with the points of a file [m], and their profile."""
-    measured, outline = repair.head_of(measured, kind, content.downwards)
+    measured, outline = repair.head_of(measured, kind, content.downwards, scale)
     uncut = bool(outline) and len(measured) == len(content.points)
     disorder = [] if uncut else inspection.order(measured)
     findings = [*content.told, *outline, *disorder]

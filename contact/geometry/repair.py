@@ -19,6 +19,7 @@ _BINS, _DOUBLE, _APART, _FLAT = (
 _EDGE = 0.15  # of the height: parts at the top and the bottom whose widths are compared
 _ALIKE = 0.1  # widths of head and foot that differ less are not told apart
 _AT_END, _WEB = 0.75, 0.35  # of the height: from there on ends lie at an end; of the wider end: the width of a web
+_HALF = 0.055  # least width of one half of a rail with its foot [m]
 _HEAD = 0.1  # of the height: the least height of a head, the foot is flatter
 _INWARDS = 0.02  # of the width: by so much an outline turns in below the head
 _LOST = 0.02  # of the width: a repair that takes away more is told
@@ -90,10 +91,13 @@ def narrowed(before: Points, after: Points) -> list[Finding]:
     ]
 
 
-def is_outline(points: Points) -> bool:
-    """Return whether the points run round a body: over much of their width they have two heights far apart."""
+def is_outline(points: Points, scale: float = 1.0) -> bool:
+    """Return whether the points run round a body: over much of their width they have two heights far apart.
+
+    A head with y and z swapped does so too, but it is narrower than half a rail of this `scale`.
+    """
     (width, height), n = np.ptp(points, axis=0), len(points)
-    if n < 20 or not height > _FLAT * width > 0.0:
+    if n < 20 or not height > _FLAT * width > 0.0 or (height > width and width < _HALF * scale):
         return False
     fine = _refined(points, width / (2 * _BINS))
     part = np.minimum(((fine[:, 0] - fine[:, 0].min()) / width * _BINS).astype(int), _BINS - 1)
@@ -101,13 +105,13 @@ def is_outline(points: Points) -> bool:
     return sum(bool(z.size > 1 and np.diff(z).max() > _APART * height) for z in heights) > _DOUBLE * _BINS
 
 
-def head_of(points: Points, kind: Kind, downwards: bool) -> tuple[Points, list[Finding]]:
+def head_of(points: Points, kind: Kind, downwards: bool, scale: float = 1.0) -> tuple[Points, list[Finding]]:
     """Return the head in the outline of a whole rail, and what was cut off; other points as they are.
 
     `downwards` says that z is known to point down. The finding is fatal if the outline is that of a wheel, or head and foot
     cannot be told apart; then the points are those given.
     """
-    if not is_outline(points):
+    if not is_outline(points, scale):
         return points, []
     width, height = np.ptp(points, axis=0)
     seen = f"the points run round a body {1e3 * width:.3g} mm wide and {1e3 * height:.3g} mm high"
