@@ -1,6 +1,7 @@
 """Allowed imports, checked in the sources, including imports inside functions."""
 
 import ast
+import re
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -148,3 +149,23 @@ def test_imports_are_found(line, name, tmp_path, monkeypatch):
     path = tmp_path / "tests" / "some.py"
     path.write_text(line)
     assert list(imports(path)) == [name]
+
+
+def test_every_page_that_a_source_names_exists():
+    pages = {
+        path.name for folder in ("docs", "reference", "examples", "models") for path in (ROOT / folder).rglob("*.md")
+    }
+    pages |= {path.name for path in ROOT.glob("*.md")}
+    files = [
+        path
+        for folder in ("contact", "fmu_src", "models", "benchmarks", "explorer")
+        for path in (ROOT / folder).rglob("*")
+    ]
+    named = {
+        f"{path.relative_to(ROOT)}: {name}"
+        for path in files
+        if path.suffix in {".py", ".c", ".h", ".js"}
+        for name in re.findall(r"\b([\w-]+\.md)\b", path.read_text(encoding="utf-8"))
+        if name not in pages
+    }
+    assert named == set()

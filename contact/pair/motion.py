@@ -1,4 +1,7 @@
-"""A wheel for each row of a motion, over time or along the way, with friction memory and contact damping (in_time.md)."""
+"""A wheel for each row of a motion, over time or along the way, with friction memory and contact damping.
+
+The page docs/understand/other_wheels.md tells how it is used.
+"""
 
 from __future__ import annotations
 
