@@ -6,7 +6,6 @@ import warnings
 import numpy as np
 import pytest
 
-import contact
 from contact import STEEL, ContactError, Status
 from contact.errors import ModelWarning, PlausibilityWarning
 from contact.geometry import profile
@@ -267,13 +266,11 @@ def test_a_flat_is_passed_without_a_jump():
             solver.solve(Pose(), FREE, rotation=float(a), load=8e4, friction=0.0) for a in np.arange(0, 0.07, step)
         ]
         # where a sharp end lies in the patch, the strips' force repeats to some 1e-4 only (surfaces.md, limits)
-        lost = [
-            one for one in found if one.status is contact.Status.NOT_CONVERGED
-        ]  # the iteration itself, not the load
+        lost = [one for one in found if one.status is Status.NOT_CONVERGED]  # the iteration itself, not the load
         assert len(lost) <= 1
         assert [one.Q for one in lost] == pytest.approx([8e4] * len(lost), rel=0.02)
-        rest = [one.Q for one in found if one.status is not contact.Status.NOT_CONVERGED]
-        assert rest == pytest.approx([8e4] * len(rest), rel=1e-3)
+        kept = [one.Q for one in found if one.status is not Status.NOT_CONVERGED]
+        assert kept == pytest.approx([8e4] * len(kept), rel=1e-3)
         steps.append(np.abs(np.diff([one.z for one in found])).max())
     assert steps[1] < 0.5 * steps[0]
 
