@@ -23,10 +23,10 @@ from contact.kernels.jacobian import COLUMNS, ROWS, solve_with_jacobian
 from contact.kernels.pipeline import solve_cases
 from contact.kernels.records import CASE, RESULT
 from contact.material import STEEL, Material
-from contact.plausibility import doubt_alike, doubt_gap, doubt_values
+from contact.plausibility import doubt_alike, doubt_gap, doubt_strips, doubt_values
 from contact.registry import DEFAULT_NORMAL, DEFAULT_TANGENTIAL, lookup
 from contact.separation import Separation
-from contact.solution import Forces, Jacobian
+from contact.solution import BEND, Forces, Jacobian
 from contact.solver import N_ELEMENTS, N_STRIPS, require_conformal, require_resolution
 
 _CHUNK = 256
@@ -180,6 +180,8 @@ def forces(
         doubt_gap(
             float(results["gap_error"][worst]), method.gap_limit, separations[which[worst]].told, "gap in an array"
         )
+        worst = int(results["bend"].argmax())
+        doubt_strips(float(results["bend"][worst]), BEND, conformal, separations[which[worst]].told)
     area = column("area")
     slip_ratio = np.divide(column("slip_area"), area, out=np.zeros(shape), where=area > 0.0)
     return Forces(

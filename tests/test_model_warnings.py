@@ -119,6 +119,19 @@ def test_a_warning_that_is_an_error_is_raised_again():
                 solver.solve(bent(250.0), ROLLING, load=5e4)
 
 
+def test_every_way_to_strips_tells_of_a_bent_patch():
+    profiles, pose = Pair(profile.s1002(), profile.rail_60e1(inclination=1 / 40)), Pose(y=6.6e-3)
+    for conformal, told in ((False, "It is solved as plane"), (True, "strips with conformal = True")):
+        with pytest.warns(ModelWarning, match=told):
+            contact.forces([bent(250.0)], ROLLING, load=5e4, conformal=conformal)
+        pair = WheelRailPair(profiles, conformal=conformal)
+        with pytest.warns(ModelWarning, match=told):
+            pair.solve(pose, load=8e4)
+    with warnings.catch_warnings():
+        warnings.simplefilter("error", ModelWarning)
+        pair.solve(Pose(), load=8e4)
+
+
 def test_a_pressure_that_leaves_gaps_is_told():
     """Two humps along the strips: the largest pressure is 20 % low at status OK."""
     pair, pose = Pair(profile.s1002(), profile.rail_60e1(inclination=1 / 40)), {"y": 7.5e-3, "yaw": 30e-3}

@@ -371,7 +371,7 @@ typedef struct {
     wr_contact_options patch;
     int64_t n_bins;
     int64_t answered; /* 1 after a solution: what follows belongs to it */
-    int64_t n_strips, n_patches, height;
+    int64_t n_strips, n_patches;
     wr_case problem;
     wr_result result;
 } Head;

@@ -355,7 +355,7 @@ static int solve_pair(void *memory, int cold, const wr_pair_input *in, wr_pair_a
                            &rail, &offset, &made.total, made.patches, &deflected);
     if (n < 0) return failure(n, in->height);
     made.deflection_y = deflected.dy, made.deflection_z = deflected.dz;
-    head->answered = 1, head->n_patches = n, head->height = in->height, head->problem = surface;
+    head->answered = 1, head->n_patches = n, head->problem = surface;
     *answer = made;
     return 0;
 }
@@ -407,7 +407,7 @@ int wr_pair_patch(void *memory, int64_t k, wr_result *result, wr_fields *fields)
     TRY(among(k, 0, head->n_patches - 1, A_k));
     TRY(aligned(result, A_result));
     if (fields != NULL) TRY(check_fields(fields));
-    int64_t n = CALL_PAIR(patch, head, work_of(memory), k, head->height, result);
+    int64_t n = CALL_PAIR(patch, head, work_of(memory), k, result);
     if (fields != NULL) TRY(copy_fields(head, work_of(memory) + head->at_strips, n, fields));
     return code_of(result->status);
 }
@@ -419,7 +419,7 @@ int wr_pair_surface_load(void *memory, int64_t k, wr_surface_load *l) {
     TRY(among(k, 0, head->n_patches - 1, A_k));
     TRY(check_load(l));
     wr_result result;
-    int64_t n = CALL_PAIR(patch, head, work_of(memory), k, head->height, &result);
+    int64_t n = CALL_PAIR(patch, head, work_of(memory), k, &result);
     return fill_load(head, n, &result, l);
 }
 

@@ -5,23 +5,23 @@ import math
 from contact.core import kernel
 from contact.kernels.arrays import Samples, Space, Workspace
 from contact.kernels.damage.assess import clear_damage, damage_kernel
-from contact.kernels.enumerations import Height, LoadKind, NoAnswer, Status
+from contact.kernels.enumerations import Height, LoadKind, NoAnswer, NormalFamily, Status
 from contact.kernels.geometry.prepare import move
 from contact.kernels.geometry.search import axle
-from contact.kernels.geometry.settle import settle
+from contact.kernels.geometry.settle import begin, describe, settle
 from contact.kernels.ledger import enter
-from contact.kernels.pipeline import solve_case
+from contact.kernels.pipeline import press_case, solve_case
 from contact.kernels.records import LARGEST_CREEPAGE, MAX_PATCHES
 from contact.kernels.rows import Sep, Strip
 
-#: Search of the height for a vertical force: largest number of trials, target and accepted relative residual, and the
-#: largest height [m].
-_MAX_HEIGHTS, _TOLERANCE, _ACCEPTABLE, _FURTHEST = 16, 1e-9, 1e-3, 1.0
-#: The same residuals on surfaces that change along the way, the second with friction. On the edge of a fresh flat the force
-#: is not smooth in z.
+#: Search of the height for a load or a vertical force: largest number of trials, and of whole ones from nothing among them,
+#: target and accepted relative residual, and the largest height [m].
+_MAX_HEIGHTS, _MAX_LAST, _TOLERANCE, _ACCEPTABLE, _FURTHEST = 20, 8, 1e-9, 1e-3, 1.0
+#: Target for methods that iterate, whose own noise is about that large.
+_ITERATED = 8e-7
+#: The first two residuals on surfaces that change along the way, the second with friction. On the edge of a fresh flat the
+#: force is not smooth in z.
 _ROUGHER, _ACCEPTABLE_ROUGH = 1e-7, 1e-2
-#: Relative difference of two approaches under one load, up to which z follows from the other approach.
-_NEAR = 0.02
 
 
 @kernel
@@ -171,10 +171,9 @@ def _mirror(mirror, n, contacts, total):
 
 
 @kernel
-def set_case(patch, under_load, motion, template, case):
-    """Fill the case of one patch from the `template` of the pair."""
-    case.load_kind = LoadKind.LOAD if under_load else LoadKind.APPROACH
-    case.amount = patch.load if under_load else patch.approach
+def set_case(patch, motion, template, case):
+    """Fill the case of one patch, at its approach, from the `template` of the pair."""
+    case.load_kind, case.amount = LoadKind.APPROACH, patch.approach
     case.vx, case.vy, case.phi = _bounded(patch.vx), _bounded(patch.vy), _bounded(patch.phi)
     case.rolling = math.cos(patch.angle) / patch.radius
     # from the rail's profile into the plane of the patch
@@ -204,19 +203,27 @@ def space_of_patch(space, memory, tangent):
 
 
 @kernel
-def solve_patch(k, under_load, bench):
-    """Solve patch k of the last search for its load or its approach, with its damage. Return the number of strips.
+def workspace_of(k, bench):
+    """Return separation and workspace of patch k of the last search. Strips and fields are those of `bench.own`."""
+    own, memory, sep = bench.own, bench.memory, bench.search.separations[k]
+    piece = (memory.size - 3) // MAX_PATCHES
+    space = space_of_patch(own.space, memory[1 + k * piece : 1 + (k + 1) * piece], own.space.tangent)
+    samples = Samples(sep[Sep.Y], sep[Sep.G], sep[Sep.A], sep[Sep.XC], sep[Sep.TILT])
+    return samples, Workspace(own.rule, own.tables, space, own.strips, own.fields)
+
+
+@kernel
+def solve_patch(k, bench):
+    """Solve patch k of the last search at its approach, with its damage. Return the number of strips.
 
     Strips and fields are those of `bench.own`, until the next patch is solved. `bench.patch_case` has to hold the case of
     the pair.
     """
-    search, own, memory = bench.search, bench.own, bench.memory
-    patch, sep, parameters = search.patches[k], search.separations[k], bench.damage_parameters[0]
-    case, piece = bench.patch_case[0], (memory.size - 3) // MAX_PATCHES
-    set_case(patch, under_load, search.motion[0], bench.case[0], case)
-    samples = Samples(sep[Sep.Y], sep[Sep.G], sep[Sep.A], sep[Sep.XC], sep[Sep.TILT])
-    space = space_of_patch(own.space, memory[1 + k * piece : 1 + (k + 1) * piece], own.space.tangent)
-    of_patch = Workspace(own.rule, own.tables, space, own.strips, own.fields)
+    search, own = bench.search, bench.own
+    patch, parameters = search.patches[k], bench.damage_parameters[0]
+    case = bench.patch_case[0]
+    set_case(patch, search.motion[0], bench.case[0], case)
+    samples, of_patch = workspace_of(k, bench)
     n_strips = solve_case(samples, bench.patch_case, of_patch, bench.result)
     parameters.speed, parameters.wheel_radius = search.motion[0].vx, patch.radius
     damage_kernel(
@@ -226,120 +233,145 @@ def solve_patch(k, under_load, bench):
 
 
 @kernel
-def _is_alone(n, bench):
-    """Return whether one patch carries the load, with nearly the approach that the search has found with ANALYN.
-
-    Then z follows from its approach, because a small change of z hardly changes the separation.
-    """
-    patch, contact = bench.search.patches[0], bench.contacts[0]
-    near = abs(contact.approach - patch.approach) <= _NEAR * contact.approach
-    return n == 1 and near and bench.search.motion[0].missed <= _ACCEPTABLE
-
-
-@kernel
-def _solve_at(mode, amount, given, z, enters, bench):
-    """As `solve_pair`, at the height z if `mode` is GIVEN; under a load each patch for the load that the search has found.
-
-    The ledger is filled if `enters` says so, and under a load if `_is_alone`.
-    """
-    search, own, memory = bench.search, bench.own, bench.memory
-    total, result, damage, case = bench.total[0], bench.result[0], bench.damage[0], bench.patch_case[0]
-    motion = search.motion[0]
-    for k in range(MAX_PATCHES):
-        clear_contact(bench.contacts[k])
-    clear_total(total)
-    move(given, motion)
-    motion.z = z
-    n = settle(mode, amount, search)
-    if n < 0:
-        return n
-    if memory[0] != n:  # a patch came or went: none starts from another one
-        memory[:] = 0.0
-        memory[0] = n
-    bench.patch_case[0] = bench.case[0]
-    for k in range(n):
-        patch, contact = search.patches[k], bench.contacts[k]
-        n_strips = solve_patch(k, mode == Height.LOAD, bench)
-        pressure = pressure_wrench(own.strips, n_strips)
-        report(patch, case, result, pressure, contact)
-        if n_strips > 0:
-            patch.load = result.N  # for another solution of the same patch
-            add_wrench(contact, pressure, patch.share, motion, total)
-            _add_results(result, damage, patch.share, total)
-            total.gap_error = max(total.gap_error, contact.gap_error)
-            entered = enters and (mode != Height.LOAD or _is_alone(n, bench))
-            if entered and bench.ledger.bins.shape[2] > 0 and bench.ledger.settings[0].distance > 0.0:
-                enter(patch, n_strips, damage, bench)
-    if motion.missed > _ACCEPTABLE:
-        total.status = Status.NOT_CONVERGED.value
-    total.z, total.n_patches = motion.z, n
-    _compare_forces(total)
-    _mirror(motion.mirror, n, bench.contacts, total)
+def _prepared(n, bench):
+    """Prepare to solve the `n` patches of a search, if there are any. Return n."""
+    memory = bench.memory
+    if n >= 0:
+        if memory[0] != n:  # a patch came or went: none starts from another one
+            memory[:] = 0.0
+            memory[0] = n
+        bench.patch_case[0] = bench.case[0]
     return n
 
 
 @kernel
-def _upward(mode, n, bench):
-    """Return the force that is to equal the load [N]: the vertical part of all forces, or of the normal forces only."""
-    if mode == Height.VERTICAL:
-        return -bench.total[0].Fz
-    force = 0.0
+def _press(n, bench):
+    """Solve the normal problems of the `n` patches of the last search. Return the vertical part of their forces [N]."""
+    search, force = bench.search, 0.0
     for k in range(n):
-        contact = bench.contacts[k]
-        force += contact.N * math.cos(contact.angle) * math.cos(contact.pitch)
+        patch = search.patches[k]
+        set_case(patch, search.motion[0], bench.case[0], bench.patch_case[0])
+        samples, of_patch = workspace_of(k, bench)
+        if press_case(samples, bench.patch_case[0], of_patch, bench.result[0]) > 0:
+            force += patch.share * bench.result[0].N * math.cos(patch.angle) * math.cos(patch.pitch)
     return force
 
 
 @kernel
-def _solve_under(mode, force, given, bench):
-    """As `solve_pair` for Height.LOAD and Height.VERTICAL: find the height by a bracketed secant over the whole solution.
+def _solve(n, enters, bench):
+    """Solve the `n` patches of the last search and add up. The ledger is filled if `enters` says so.
+
+    `bend` of `bench.result` becomes that of the most bent patch.
+    """
+    own, total, result = bench.own, bench.total[0], bench.result[0]
+    damage, case, motion = bench.damage[0], bench.patch_case[0], bench.search.motion[0]
+    bend = 0.0
+    for k in range(MAX_PATCHES):
+        clear_contact(bench.contacts[k])
+    clear_total(total)
+    for k in range(n):
+        patch, contact = bench.search.patches[k], bench.contacts[k]
+        n_strips = solve_patch(k, bench)
+        bend = max(bend, result.bend)
+        pressure = pressure_wrench(own.strips, n_strips)
+        report(patch, case, result, pressure, contact)
+        if n_strips > 0:
+            patch.load = result.N
+            add_wrench(contact, pressure, patch.share, motion, total)
+            _add_results(result, damage, patch.share, total)
+            total.gap_error = max(total.gap_error, contact.gap_error)
+            if enters and bench.ledger.bins.shape[2] > 0 and bench.ledger.settings[0].distance > 0.0:
+                enter(patch, n_strips, damage, bench)
+    result.bend = bend
+    total.z, total.n_patches = motion.z, n
+    _compare_forces(total)
+    _mirror(motion.mirror, n, bench.contacts, total)
+
+
+@kernel
+def _carried(mode, n, bench):
+    """Return the force that is to equal the load [N]: the vertical part of normal forces, or of all (Height.VERTICAL)."""
+    force = 0.0
+    for k in range(n):
+        contact = bench.contacts[k]
+        force += contact.N * math.cos(contact.angle) * math.cos(contact.pitch)
+    return -bench.total[0].Fz if mode == Height.VERTICAL else force
+
+
+@kernel
+def _solve_under(mode, force, bench):
+    """As `solve_pair` for Height.LOAD and Height.VERTICAL: find the height by bracketed secants over the own forces.
 
     It begins at the height at which the normal forces by ANALYN carry the load. The force grows with the power 3/2 of the
-    depth there. Where it jumps over the load, the nearest height found is the answer, with the status NOT_CONVERGED.
+    depth, so the secants are those of its power 2/3. Where it jumps over the load, the nearest height found is the answer,
+    with the status NOT_CONVERGED.
+
+    Trials start from one another and, under a load, have no tangential problem. The last ones start from nothing and are
+    whole. So the answer is that of the height alone.
     """
-    n = _solve_at(Height.LOAD, force, given, given.z, mode == Height.LOAD, bench)
+    search, total, memory, motion = bench.search, bench.total[0], bench.memory, bench.search.motion[0]
+    n = settle(Height.LOAD, force, search)
     if n <= 0 or force <= 0.0:
+        if n >= 0:
+            _solve(_prepared(n, bench), False, bench)
         return n
-    if mode == Height.LOAD and _is_alone(n, bench):
-        patch, contact, motion = bench.search.patches[0], bench.contacts[0], bench.search.motion[0]
-        deeper = (contact.approach - patch.approach) / (math.cos(patch.angle) * math.cos(patch.pitch))
-        motion.z += deeper
-        contact.z += deeper  # with the wheel, so that the arm of the wrench stays
-        bench.total[0].z = motion.z
-        return n
-    total, changing = bench.total[0], bench.search.motion[0].changing
+    z, changing = motion.z, motion.changing
+    _, _, nodes = begin(search, z)
     tolerance = _ROUGHER if changing else _TOLERANCE
+    if bench.case[0].normal_family == NormalFamily.STRIP_HALFSPACE:
+        tolerance = max(tolerance, _ITERATED)
     acceptable = _ACCEPTABLE_ROUGH if changing and mode == Height.VERTICAL else _ACCEPTABLE
-    deepest = 0.0
+    deepest, target = 0.0, force ** (2.0 / 3.0)
     for k in range(n):
-        deepest = max(deepest, bench.contacts[k].approach / math.cos(bench.contacts[k].angle))
-    z, low, high = total.z, total.z - deepest, math.inf
-    z_before, f_before = z, 0.0
-    best, z_best = math.inf, z
-    for iteration in range(_MAX_HEIGHTS):
-        n = _solve_at(Height.GIVEN, 0.0, given, z, False, bench)
-        if n < 0:
-            return NoAnswer.NOT_SETTLED.value
-        f = _upward(mode, n, bench) - force
-        if abs(f) < best:
-            best, z_best = abs(f), z
-        if abs(f) <= tolerance * force:
+        deepest = max(deepest, search.patches[k].approach / math.cos(search.patches[k].angle))
+    touch, low, high = z - deepest, z - deepest, math.inf
+    z_before, f_before, missing_before, slope = z, 0.0, math.inf, 0.0
+    best, z_best, last, first_last = math.inf, z, False, _MAX_HEIGHTS - _MAX_LAST
+    for number in range(_MAX_HEIGHTS):
+        if changing:  # grids that are laid for another height would change the force
+            begin(search, z)
+        n = _prepared(describe(search, z, nodes), bench)
+        if last:
+            memory[:] = 0.0
+            memory[0] = n
+        if last or mode == Height.VERTICAL:
+            _solve(n, False, bench)
+            carried = _carried(mode, n, bench)
+        else:
+            carried = _press(n, bench)
+        f, missing = max(carried, 0.0) ** (2.0 / 3.0) - target, abs(carried - force) / force
+        if last and missing < best:
+            best, z_best = missing, z
+        if last and missing <= tolerance:
             break
+        if z != z_before and (f - f_before) / (z - z_before) > 0.0:
+            slope = (f - f_before) / (z - z_before)
+        elif number == 0:
+            slope = (f + target) / deepest
         if f > 0.0:
             high = z
         else:
             low = z
-        slope = 1.5 * (f + force) / deepest if iteration == 0 else (f - f_before) / (z - z_before)
-        new = z - f / max(slope, 1e-300) if slope > 0.0 else math.inf  # compilers divide before the condition
+        new = z - f / slope if slope > 0.0 else math.inf
         if not low < new < high:
             new = 0.5 * (low + high) if high < math.inf else z + 0.5 * deepest
-        if new == z or abs(new) > _FURTHEST:
+        if abs(new) > _FURTHEST or (last and new == z):
             break
-        z_before, f_before, z = z, f, new
-    missed = best > acceptable * force
+        # the error of a secant is proportional to both errors
+        if not last and (missing * missing_before <= tolerance or new == z or number >= first_last):
+            last, low, high = True, touch, math.inf
+        z_before, f_before, missing_before, z = z, f, missing, new
+    missed = best > acceptable
     if missed and high == math.inf:
         return NoAnswer.NOT_SETTLED.value
-    n = _solve_at(Height.GIVEN, 0.0, given, z_best, True, bench)
+    distance = bench.ledger.settings[0].distance
+    if motion.z != z_best or distance > 0.0:
+        if changing:
+            begin(search, z_best)
+        n = _prepared(describe(search, z_best, nodes), bench)
+        memory[:] = 0.0
+        memory[0] = n
+        _solve(n, True, bench)
     if missed:  # the force jumps with the height: on surfaces, and by ANALYN where a lobe appears
         total.status = Status.NOT_CONVERGED.value
     return n
@@ -355,6 +387,10 @@ def solve_pair(mode, amount, given, bench):
     the patches' shares (`search.combine`), which are 1 nearly always. Fills bench.contacts and bench.total, and enters what
     the patches do into bench.ledger. Returns the number of patches, or a code of `settle` where there is no answer.
     """
+    move(given, bench.search.motion[0])
     if mode == Height.VERTICAL or mode == Height.LOAD:
-        return _solve_under(mode, amount, given, bench)
-    return _solve_at(mode, amount, given, given.z, True, bench)
+        return _solve_under(mode, amount, bench)
+    n = _prepared(settle(mode, amount, bench.search), bench)
+    if n >= 0:
+        _solve(n, True, bench)
+    return n

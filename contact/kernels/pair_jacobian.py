@@ -88,7 +88,7 @@ def _solve_patch(k, place, samples, own, aside):
     """Solve patch k at its approach and add its forces to `aside.forces`. Return the number of strips."""
     bench = aside.bench
     patch, case, result, contact = bench.search.patches[k], bench.patch_case[0], bench.result[0], bench.contacts[k]
-    set_case(patch, False, bench.search.motion[0], bench.case[0], case)
+    set_case(patch, bench.search.motion[0], bench.case[0], case)
     n = _press(k, place, samples, own, aside)
     if n > 0 and place != _SOLVED:
         roll_case(samples, n, case, own, result)

@@ -34,9 +34,9 @@ from contact.pair.elastic_rail import ElasticRail
 from contact.pair.motion import AnyPair
 from contact.pair.solution import PairSolution
 from contact.pair.solved import Answer
-from contact.plausibility import doubt_alike, doubt_gap
+from contact.plausibility import doubt_alike, doubt_gap, doubt_strips
 from contact.registry import DEFAULT_NORMAL, DEFAULT_TANGENTIAL, lookup
-from contact.solution import PairJacobian
+from contact.solution import BEND, PairJacobian
 from contact.solution.jacobian import columns_of_pair
 from contact.solve import solve
 from contact.solver import N_ELEMENTS, N_STRIPS, require_max_iterations, require_resolution
@@ -288,6 +288,8 @@ class WheelRailPair(AnyPair):
         jacobian = self._derive(mode, self._motion[0], load, penetration, vertical) if derivatives else None
         found = self._answer.solution(code, given[_SPIN], jacobian)
         doubt_gap(found.gap_error, self._gap_limit, self.pair.told)
+        bend, conformal = float(self.bench.result[0]["bend"]), bool(self.bench.case[0]["conformal"])
+        doubt_strips(bend, BEND, conformal, self.pair.told)
         return found
 
     def _derive(

@@ -66,14 +66,15 @@ def test_equals_search_and_separate_solution_of_every_patch(right, worn, seed, l
     pair.forget()
     actual = pair.solve(pose, velocity, load=load, irregularity=rail, friction=0.4)
     exact = 1e-12
-    if seed == 1 and load:  # two patches share the load: the method itself has found the height, and starts warm
-        pose, load, exact = replace(pose, z=actual.z), None, 2e-3
-    patches = pair.pair.contacts(pose, velocity, load=load, irregularity=rail)
+    if load:
+        pose = replace(pose, z=actual.z)
+    patches = pair.pair.contacts(pose, velocity, irregularity=rail)
     assert len(actual.contacts) == len(patches) >= 1
     force, damage = np.zeros(3), []
     for mine, patch in zip(actual.contacts, patches, strict=True):
-        amount = {"approach": patch.approach} if load is None else {"load": patch.load}
-        s = contact.solve(patch.separation, patch.creepage, **amount, friction=0.4, speed=velocity.forward, throw=False)
+        s = contact.solve(
+            patch.separation, patch.creepage, approach=patch.approach, friction=0.4, speed=velocity.forward, throw=False
+        )
         own = patch.share * np.array([s.N, s.Fx, s.Fy, s.Mz])
         np.testing.assert_allclose((mine.N, mine.Fx, mine.Fy, mine.Mz), own, rtol=exact, atol=1e-9)
         assert (mine.angle, mine.creepage, mine.status) == (patch.angle, patch.creepage, s.status)
@@ -111,7 +112,9 @@ def test_vertical_parts_of_the_normal_forces_carry_the_load(normal):
     s = pair.solve(Pose(y=6.385e-3), load=80e3)
     assert 1 <= len(s.contacts) <= 3
     missed = abs(sum(c.N * math.cos(c.angle) for c in s.contacts) / 80e3 - 1.0)
-    assert missed < 2e-9 if METHODS.normal[normal].continuous else missed < 1e-3 or s.status is Status.NOT_CONVERGED
+    # strips that iterate are found to 1e-6; of `semi_winkler` the load has a step of 5e-6 here
+    within = {"strip_halfspace": 1e-6, "semi_winkler": 1e-5}.get(normal, 2e-9)
+    assert missed < within if METHODS.normal[normal].continuous else missed < 1e-3 or s.status is Status.NOT_CONVERGED
 
 
 @pytest.mark.parametrize(

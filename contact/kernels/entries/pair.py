@@ -15,7 +15,6 @@ from contact.core import COMPILING, group
 from contact.kernels import block, memory, quadrature
 from contact.kernels.damage.deposit import arc_length
 from contact.kernels.entries.layout import compiled, copy, copy_rows, fill, forget_forged, lay_out, size_of
-from contact.kernels.enumerations import Height
 from contact.kernels.flexible import solve_flexible
 from contact.kernels.geometry.prepare import facing, rail_origin, take_nodes
 from contact.kernels.pair import solve_patch
@@ -148,14 +147,14 @@ def accept(a):
 
 
 @compiled
-def solve_again(a, bench, piece, k, mode, result):
+def solve_again(a, bench, piece, k, result):
     """Solve patch k of the last solution once more, for its strips and fields. Return the number of strips.
 
     It starts from what the last solution has left, which it restores.
     """
     of_patch = a.trial[1 + k * piece : 1 + (k + 1) * piece]
     copy(of_patch, a.spare)
-    n = solve_patch(k, mode == Height.LOAD, bench)
+    n = solve_patch(k, bench)
     copy(a.spare, of_patch)
     results, _ = block.records(result, 0, 1, RESULT)
     results[0] = bench.result[0]
@@ -266,10 +265,10 @@ def pair_forget(sizes, work, given):
     return 0
 
 
-def pair_patch(sizes, work, k, mode, result, given):
+def pair_patch(sizes, work, k, result, given):
     """As `solve_again`, on profiles."""
     a, bench, _, _, _ = _lay(sizes, work, given.data)
-    return solve_again(a, bench, memory.memory_size(size_of(sizes)), k, mode, result)
+    return solve_again(a, bench, memory.memory_size(size_of(sizes)), k, result)
 
 
 ENTRIES: dict[str, tuple[Any, str, tuple[str, ...]]] = {
@@ -282,5 +281,5 @@ ENTRIES: dict[str, tuple[Any, str, tuple[str, ...]]] = {
     "pair_derivatives": (pair_derivatives, "i64", ("ptr", "ptr", "i64", "ptr", "ptr")),
     "pair_accept": (pair_accept, "i64", ("ptr", "ptr")),
     "pair_forget": (pair_forget, "i64", ("ptr", "ptr")),
-    "pair_patch": (pair_patch, "i64", ("ptr", "ptr", "i64", "i64", "ptr")),
+    "pair_patch": (pair_patch, "i64", ("ptr", "ptr", "i64", "ptr")),
 }

@@ -216,10 +216,10 @@ def surfaces_forget(sizes, work, given):
     return 0
 
 
-def surfaces_patch(sizes, work, k, mode, result, given):
+def surfaces_patch(sizes, work, k, result, given):
     """As `pair.solve_again`."""
     a, bench, _, _ = _laid(sizes, work, given.data)
-    return solve_again(a, bench, memory.memory_size(size_of(sizes)), k, mode, result)
+    return solve_again(a, bench, memory.memory_size(size_of(sizes)), k, result)
 
 
 ENTRIES: dict[str, tuple[Any, str, tuple[str, ...]]] = {
@@ -230,5 +230,5 @@ ENTRIES: dict[str, tuple[Any, str, tuple[str, ...]]] = {
     "surfaces_derivatives": (surfaces_derivatives, "i64", ("ptr", "ptr", "i64", "ptr", "ptr")),
     "surfaces_accept": (surfaces_accept, "i64", ("ptr", "ptr")),
     "surfaces_forget": (surfaces_forget, "i64", ("ptr", "ptr")),
-    "surfaces_patch": (surfaces_patch, "i64", ("ptr", "ptr", "i64", "i64", "ptr")),
+    "surfaces_patch": (surfaces_patch, "i64", ("ptr", "ptr", "i64", "ptr")),
 }

@@ -1,0 +1,81 @@
+"""The height that a pair finds under a load is the height of that load: solved there from nothing it is the same answer."""
+
+import math
+
+import numpy as np
+import pytest
+
+from contact.geometry import profile
+from contact.geometry.surfaces import SurfacePair
+from contact.geometry.wheelset import Pair, Pose, Velocity
+from contact.pair import WheelRailPair
+
+VELOCITY = Velocity(forward=20.0)
+WHEEL, RAIL = profile.s1002(), profile.rail_60e1(inclination=1 / 40)
+#: Tread, flange root, flange; two patches at y = 6.37 mm on the worn rail.
+POSES = [
+    Pose(y=2e-3),
+    Pose(y=5.01e-3, yaw=2e-3),
+    Pose(y=6.135e-3, yaw=3.976e-3, roll=-1.225e-3),
+    Pose(y=6.6e-3, yaw=-2e-3),
+]
+
+
+def carried(solution, kind):
+    return (
+        solution.Q
+        if kind == "vertical"
+        else sum(c.N * math.cos(c.angle) * math.cos(c.pitch) for c in solution.contacts)
+    )
+
+
+def assert_same_from_nothing(pair, pose, kind, within, force=70e3, **options):
+    found = pair.solve(pose, VELOCITY, **{kind: force}, **options)
+    pair.forget()
+    again = pair.solve(Pose(pose.y, found.z, pose.roll, pose.yaw), VELOCITY, **options)
+    assert carried(again, kind) == pytest.approx(force, rel=within)
+    np.testing.assert_array_equal(again.force, found.force)
+    assert again.max_pressure == found.max_pressure
+
+
+@pytest.mark.parametrize("kind", ["load", "vertical"])
+@pytest.mark.parametrize(
+    ("normal", "within"), [("analyn", 1e-8), ("hertz", 1e-8), ("stripes_a", 1e-8), ("strip_halfspace", 1e-4)]
+)
+def test_a_height_found_under_a_load_carries_this_load(normal, within, kind):
+    """The force of interacting strips jumps by 5e-5 at the last pose, by less than 1e-6 at nearly all others."""
+    pair = WheelRailPair(Pair(WHEEL, RAIL), normal=normal)
+    for pose in POSES:
+        assert_same_from_nothing(pair, pose, kind, within)
+
+
+@pytest.mark.parametrize("kind", ["load", "vertical"])
+@pytest.mark.parametrize(("normal", "within"), [("analyn", 1e-8), ("strip_halfspace", 1e-4)])
+def test_two_patches_carry_the_load_together_at_the_height_found(normal, within, kind):
+    pair = WheelRailPair(Pair(WHEEL, profile.rail_60e1(1 / 20, breakpoints="UIC 519")), normal=normal)
+    pose = Pose(y=6.385e-3)
+    found = pair.solve(pose, VELOCITY, **{kind: 80e3})
+    assert kind == "vertical" or len(found.contacts) > 1
+    assert_same_from_nothing(pair, pose, kind, within, force=80e3)
+
+
+@pytest.mark.parametrize("kind", ["load", "vertical"])
+def test_a_height_found_on_surfaces_carries_the_load(kind):
+    pair = WheelRailPair(SurfacePair(WHEEL, RAIL), normal="analyn")
+    for pose in POSES[:2]:
+        assert_same_from_nothing(pair, pose, kind, 2e-7)
+
+
+def test_the_answer_under_a_load_does_not_depend_on_the_poses_before():
+    """At y = 5.01 mm and 2 mrad one z had 1923 MPa or 1878, by the way to it."""
+    pair = WheelRailPair(Pair(WHEEL, RAIL))
+    pose, answers = Pose(y=5.01e-3, yaw=2e-3), []
+    for before in (None, Pose(y=5.0e-3, yaw=2e-3), Pose(y=5.1e-3, yaw=1.9e-3), Pose(y=-3e-3)):
+        pair.forget()
+        if before is not None:
+            pair.solve(before, VELOCITY, vertical=80e3)
+        answers.append(pair.solve(pose, VELOCITY, vertical=80e3))
+    for other in answers[1:]:
+        assert other.max_pressure == pytest.approx(answers[0].max_pressure, rel=1e-4)
+        np.testing.assert_allclose(other.force, answers[0].force, atol=1e-5 * 80e3)
+        assert pytest.approx(80e3, rel=1e-5) == other.Q
