@@ -109,14 +109,14 @@ class Separation:
 
     @classmethod
     def hertzian(cls, A: float, B: float) -> Separation:
-        """Return the separation z = A·x² + B·y² with half curvatures `A`, `B` [1/m], sampled up to a gap of 1 mm.
+        """Return the separation z = A·x² + B·y² with half curvatures `A`, `B` [1/m], sampled up to a gap of 1 mm or more.
 
         The interpolation between the samples reproduces the parabola exactly, so a patch of any size is resolved.
         """
         A = require_number("A", A, 0.0, open_minimum=True)
         B = require_number("B", B, 0.0, open_minimum=True)
         y, g = np.empty(HERTZIAN_POINTS), np.empty(HERTZIAN_POINTS)
-        fill_hertzian(B, y, g)
+        fill_hertzian(A, B, y, g)
         return cls(y, g, A)
 
     def with_gap(self, g: ArrayLike, A: ArrayLike) -> Separation:

@@ -16,12 +16,12 @@ import numpy as np
 import contact
 from contact.geometry import profile, wheelset
 from contact.kernels.enumerations import NormalFamily, TangentialFamily
-from contact.kernels.normal import analyn, by_approach, strip_halfspace
+from contact.kernels.normal import analyn, by_approach, hertzian, strip_halfspace
 
 #: Limit of the iterations of each normal method.
 CAPS = dict.fromkeys(contact.methods().batched.normal, by_approach.MAX_ITERATIONS) | {
     "analyn": analyn._MAX_ITERATIONS,
-    "hertz": 1,
+    "hertz": hertzian._MAX_ITERATIONS,
     "strip_halfspace": strip_halfspace.MAX_ITERATIONS,
 }
 #: Family of a normal method → family of the tangential methods that a random case of a pair has with it, since Python compiles

@@ -95,9 +95,9 @@ def test_creep_forces_on_real_patches(normal, force, moment):
 
 
 def test_slopes_at_vanishing_creepage_on_real_patches():
-    """Fx/ξ, Fy/η, Fy/φ, Mz/φ: bar 5, 5, 8, 12 %; aim 2, 2, 4, 6 %."""
+    """Fx/ξ, Fy/η, Fy/φ, Mz/φ: bar 5, 5, 8, 12 %; aim 2, 2, 4, 6 %. With one smoothing length for all .8, 1.45, .8, 1.1 %."""
     mean = np.abs(accuracy.errors_of_slopes("strip_halfspace", "fastrip_mapped")).mean(axis=0)
-    assert (mean <= SLACK * np.array([0.008, 0.0145, 0.008, 0.011])).all(), mean
+    assert (mean <= SLACK * np.array([0.0093, 0.0148, 0.0069, 0.022])).all(), mean
 
 
 def test_reference_is_the_one_described():
@@ -122,6 +122,6 @@ def test_default_answers_on_difficult_patches_and_where_analyn_fails_it_says_so(
     )  # at the middles of strips .010; skewed strips are looked at beside their middles too
     force, pressure, gap_error = accuracy.errors_of(reference.wheel_rail_patches(), **contact.THESIS)
     wrong = np.abs(pressure) > 0.20
-    assert wrong.sum() == 4
+    assert wrong.sum() == 2  # 4 with one smoothing length for all contacts
     assert np.all(gap_error[wrong] > GAP_LIMIT)
     assert np.mean(gap_error[~wrong] > GAP_LIMIT) <= 0.5  # false alarms

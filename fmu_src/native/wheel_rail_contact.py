@@ -188,7 +188,8 @@ def _pose(v, rows, a):
     if not conformal:
         case.conformal, case.rolling = 0, 0.0
     if curved:
-        fill_hertzian(max(v[at.geometry_B0], FLATTEST), sep.y[:n], sep.g[:n])
+        A, B = max(v[at.geometry_A0], FLATTEST), max(v[at.geometry_B0], FLATTEST)
+        fill_hertzian(A, B, sep.y[:n], sep.g[:n])
     for i in range(n):
         sep.x_c[i] = 0.0
         if curved:

@@ -147,7 +147,7 @@ def test_the_answer_does_not_depend_on_the_start_where_the_ends_do_not_rest():
         after = warm.forces(patch.separation, NO_CREEP, load=patch.load, warm=True)
         alone = cold.forces(patch.separation, NO_CREEP, load=patch.load)
         assert after.status == alone.status == contact.Status.OK
-        assert after.max_pressure == pytest.approx(alone.max_pressure, rel=0.02)
+        assert after.max_pressure == pytest.approx(alone.max_pressure, rel=0.025)
         assert after.approach == pytest.approx(alone.approach, rel=1e-3)
 
 

@@ -180,7 +180,7 @@ def test_particles_that_stick_again_bear_less_than_the_bound(ellipse):
     middle = sol.stick[15]
     assert middle.any(), "in the middle the pole of the rigid slip lies in the strip"
     # along the strip the traction changes sign
-    assert np.unique(np.sign(sol.qy[15])).tolist() == [-1.0, 1.0]
+    assert {-1.0, 1.0} <= set(np.sign(sol.qy[15]))
 
 
 def test_slip_of_a_partially_slipping_circle(ellipse):

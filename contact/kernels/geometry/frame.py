@@ -11,15 +11,17 @@ from contact.core import kernel
 from contact.kernels.arrays import Search
 from contact.kernels.geometry.curve import Array, Record, advance, at
 from contact.kernels.geometry.plane import Frame, along, normal_gap, project, spread, track_slope
-from contact.kernels.geometry.search import axle, combine, join, lobes, on_wheel, shared, untie
+from contact.kernels.geometry.search import axle, combine, join, lobes, on_wheel, shared, size_of, untie
 from contact.kernels.records import SLOWEST
 from contact.kernels.rows import Curve, Sep
 
 Direction = tuple[float, float, float]
 Axes = tuple[float, float, float, float, float, float, float, float, float]
 
-MARGIN = 3e-3  # [m] by which samples extend beyond the interpenetration, enough for a second difference there
-_ARM = 0.2e-3  # [m] to both sides of a point, over which the curvature of the trace line is taken
+#: Length [m], times `size_of`, and share of the interpenetration by which samples extend beyond it, the greater of both. It is
+#: enough for the second difference there (`normal.curvature`).
+_MARGIN, _MARGIN_SHARE = 3e-3, 0.15
+_ARM = 0.2e-3  # [m], times `size_of`, to both sides of a point: the curvature of the trace line is taken over it
 _MOST = 0.8  # upper limit of k s²/a in `half_curvature`; only noise of a profile exceeds it
 _OPENING = 1.0  # slope at which the gap opens where a profile, or the patch's own range, ends
 
@@ -96,7 +98,9 @@ def positions(motion: Record, frame: Frame, wheel: Array, n_wheel: int, patch: R
 
 
 @kernel
-def half_curvature(wheel: Array, n_wheel: int, j: int, u: float, tilt: float, r: float, axis: Direction) -> float:
+def half_curvature(
+    wheel: Array, n_wheel: int, j: int, u: float, tilt: float, r: float, axis: Direction, arm: float
+) -> float:
     """Return A [1/m], half the second derivative along x of the gap at the trace point `u`, exact for any yaw and roll.
 
     The surface is F = rho - R(d) = 0, where d is the distance along the axle l and rho the distance from it. At a point
@@ -112,7 +116,7 @@ def half_curvature(wheel: Array, n_wheel: int, j: int, u: float, tilt: float, r:
 
             2 A cos D = a (1 - s²)/(1 - k s²/a).
 
-    k is the curvature of the arc through the trace line's points at `_ARM` on both sides, because the profiles' own
+    k is the curvature of the arc through the trace line's points at `arm` on both sides, because the profiles' own
     second derivatives are noise. `tilt` is the slope of the trace line in track coordinates, `axis` the direction of
     the axle.
     """
@@ -122,7 +126,7 @@ def half_curvature(wheel: Array, n_wheel: int, j: int, u: float, tilt: float, r:
     nl = normal_y * ly + normal_z * lz  # -R'/√(1 + R'²)
     across2 = 1.0 / (1.0 - nl * nl)  # 1 + R'²
     ring, s2 = 1.0 / (r * math.sqrt(across2)), lx * lx * across2
-    low, high = max(u - _ARM, wheel[Curve.Y, 0]), min(u + _ARM, wheel[Curve.Y, n_wheel - 1])
+    low, high = max(u - arm, wheel[Curve.Y, 0]), min(u + arm, wheel[Curve.Y, n_wheel - 1])
     while j > 0 and wheel[Curve.Y, j] > low:
         j -= 1
     v0, m0 = at(wheel, j, low)
@@ -149,8 +153,8 @@ def sample(
         for i in range(grid.size):
             out[Sep.Y, i] = grid[i]
     else:
-        spread(wheel, n_wheel, low, high, out[Sep.Y])
-    i, j = 0, 0
+        spread(wheel, n_wheel, low, high, size_of(motion), out[Sep.Y])
+    i, j, arm = 0, 0, _ARM * size_of(motion)
     for k in range(out.shape[1]):
         u = out[Sep.Y, k]
         v = min(max(u, low), high)
@@ -163,7 +167,7 @@ def sample(
         rail_height, rail_slope = at(rail, i, v)
         gap = rail_height - height + patch.approach
         out[Sep.G, k] = max(gap, 0.0) + _OPENING * abs(u - v)
-        out[Sep.A, k] = half_curvature(wheel, n_wheel, j, v, tilt, r, (lx, ly, lz))
+        out[Sep.A, k] = half_curvature(wheel, n_wheel, j, v, tilt, r, (lx, ly, lz), arm)
         out[Sep.XC, k] = x - patch.x
         out[Sep.TILT, k] = 0.5 * (slope + rail_slope)
 
@@ -190,7 +194,8 @@ def describe(
     first = along(frame, lobe.low, at(placed, i, lobe.low)[0])
     i = advance(placed, n_placed, i, lobe.high)
     last = along(frame, lobe.high, at(placed, i, lobe.high)[0])
-    low, high = first - MARGIN, last + MARGIN
+    margin = max(_MARGIN * size_of(motion), _MARGIN_SHARE * (last - first))
+    low, high = first - margin, last + margin
     if grid.size > 0:
         low, high = min(low, grid[0]), max(high, grid[grid.size - 1])
     if before > -math.inf:

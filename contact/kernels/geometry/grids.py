@@ -8,6 +8,7 @@ import math
 from contact.core import kernel
 from contact.kernels.arrays import Sheet, SurfaceSearch
 from contact.kernels.geometry.curve import Array
+from contact.kernels.geometry.search import size_of
 from contact.kernels.geometry.section import (
     AWAY,
     Frame,
@@ -22,8 +23,8 @@ from contact.kernels.geometry.section import (
 )
 from contact.kernels.rows import Box, Cell, Over
 
-_BETWEEN = 0.5e-3  # [m] by which the gap may fall from one of its columns to the next; a slope of 1:8
-_BESIDE = 3e-3  # [m] beyond a grid, in which paths may reach into it at another x
+_BETWEEN = 0.5e-3  # [m], times `size_of`, by which the gap may fall from one column to the next; a slope of 1:8
+_BESIDE = 3e-3  # [m], times `size_of`, beyond a grid, in which paths may reach into it at another x
 _ALL = 1 << 30
 
 
@@ -39,7 +40,8 @@ def limits_of(
 ) -> tuple[int, int, int, int]:
     """Return first path and end of the wheel, and of the rail, that reach into a range of x and y [m] of a frame."""
     wheel, rail, motion, nodes = space.wheel, space.rail, space.motion[0], space.section
-    low, high = y[0] - _BESIDE, y[1] + _BESIDE
+    beside = _BESIDE * size_of(motion)
+    low, high = y[0] - beside, y[1] + beside
     wheel_first, wheel_end, rail_first, rail_end = _ALL, 0, _ALL, 0
     for k in range(3):
         at = x[0] + 0.5 * k * (x[1] - x[0])
@@ -142,7 +144,7 @@ def fill_coarse(box: Array, gap: Array, n_x: int, space: SurfaceSearch) -> None:
                 for i in range(n_y):
                     gap[i, k] = min(gap[i, k - 1], gap[i, k + 1])
                     beside = min(beside, gap[i, k])
-                if beside > least + _BETWEEN:
+                if beside > least + _BETWEEN * size_of(space.motion[0]):
                     continue
             column(box[Box.X] + k * box[Box.DX], rows, limits, frame, surfaces, space.motion[0], space.section, to)
             for i in range(n_y):

@@ -10,7 +10,7 @@ from contact.kernels.rows import Sep
 #: A parabola is fitted where the gap of its row is below the approach, and at least up to this share of the approach above
 #: its least value.
 _LEAST_DEPTH = 0.15
-_FLATTEST, _SHARPEST = 0.02, 500.0  # [1/m] range of A: a radius of 25 m, and one of 1 mm
+_FLATTEST, _SHARPEST = 0.02, 500.0  # [1/m] range of A: a radius of 25 m, and one of 1 mm, for a usual wheel
 #: A faint weight around the lowest point of a row, and its width over that of the grid, so that few points suffice.
 _FAINT, _WIDE = 1e-3, 0.2
 #: The best parabola over that by moments, in A: the first counts above the second value, the second below the first. Where
@@ -19,7 +19,9 @@ _HOLLOW, _WHOLE = 0.4, 0.8
 
 
 @kernel
-def _bend(moments: tuple[float, float, float, float, float], right: tuple[float, float, float]) -> tuple[float, float]:
+def _bend(
+    moments: tuple[float, float, float, float, float], right: tuple[float, float, float], size: float
+) -> tuple[float, float]:
     """Return c2 and t_c of the least-squares parabola c2 (t - t_c)² + c0, from the sums of w tⁿ and of w h tⁿ.
 
     c2 is kept in its range. Then t_c follows from the best parabola with this c2, so two ends of equal height have t_c in
@@ -32,12 +34,12 @@ def _bend(moments: tuple[float, float, float, float, float], right: tuple[float,
     b1, b2 = r1 - r0 * centre, r2 - r0 * m2 / m0
     determinant = a11 * a22 - a12 * a12
     c2 = (b2 * a11 - b1 * a12) / determinant if determinant > 1e-12 * a11 * a22 else 0.0
-    c2 = min(max(c2, _FLATTEST), _SHARPEST)
+    c2 = min(max(c2, _FLATTEST / size), _SHARPEST / size)
     return c2, (c2 * a12 - b1) / (2.0 * c2 * a11) if a11 > 0.0 else centre
 
 
 @kernel
-def _by_moments(h: Array, x: Array, i: int, level: float) -> tuple[bool, float, float, float]:
+def _by_moments(h: Array, x: Array, i: int, level: float, size: float) -> tuple[bool, float, float, float]:
     """Return whether a surface ends within the overlap of a row, and A, x_c and g of the parabola with its moments.
 
     The parabola has the volume, the middle and the spread of what overlaps at `level`: the depth D - A (x - x_c)² over the
@@ -54,23 +56,24 @@ def _by_moments(h: Array, x: Array, i: int, level: float) -> tuple[bool, float, 
         w = 0.5 * depth if ends else depth
         m0, m1, m2 = m0 + w, m1 + w * x[i, k], m2 + w * x[i, k] ** 2
     if m0 <= 0.0:
-        return False, _FLATTEST, 0.0, level
+        return False, _FLATTEST / size, 0.0, level
     step = (x[i, n - 1] - x[i, 0]) / (n - 1)
     x_c = m1 / m0
     a = math.sqrt(5.0 * max(m2 / m0 - x_c * x_c, step * step / 12.0))
     top = 0.75 * m0 * step / a
-    return cut, min(max(top / (a * a), _FLATTEST), _SHARPEST), x_c, level - top
+    return cut, min(max(top / (a * a), _FLATTEST / size), _SHARPEST / size), x_c, level - top
 
 
 @kernel
-def fit_rows(h: Array, x: Array, approach: float, wide: float, out: Array) -> float:
+def fit_rows(h: Array, x: Array, approach: float, wide: float, size: float, out: Array) -> float:
     """Fill G, A and XC of `out`: each row h(x) becomes A·(x - x_c)² + g. Return the error of the parabolas.
 
     The fit is by least squares over the part of the row that overlaps at the `approach`, weighted with the depth. So A, x_c
     and g are those of both surfaces at the pose: a flat makes A small, a ramp moves x_c. `h` is the gap from its least value,
-    with AWAY where a body is absent, and `wide` the length of its grid [m]. The error is the root mean square of h minus the
-    parabolas over the overlap, weighted with the depth, over the approach. Where a strip touches at two places, as on both
-    ends of a flat, it is large, and strips cannot describe the patch. There, and where a surface ends within the
+    with AWAY where a body is absent, `wide` the length of its grid [m], and `size` that of the wheel (`search.size_of`). The
+    error is the root mean square of h minus the parabolas over the overlap, weighted with the depth, over the approach. Where
+    a strip touches at two places, as on both ends of a flat, it is large, and strips cannot describe the patch. There, and
+    where a surface ends within the
     overlap, the parabola has the moments of the overlap (`_by_moments`).
     """
     n_x, total, square = h.shape[1], 0.0, 0.0
@@ -93,9 +96,9 @@ def fit_rows(h: Array, x: Array, approach: float, wide: float, out: Array) -> fl
             t2 = t * t
             m0, m1, m2, m3, m4 = m0 + w, m1 + w * t, m2 + w * t2, m3 + w * t2 * t, m4 + w * t2 * t2
             r0, r1, r2 = r0 + w * h[i, k], r1 + w * h[i, k] * t, r2 + w * h[i, k] * t2
-        cut, A, x_c, g = _by_moments(h, x, i, least + window)
+        cut, A, x_c, g = _by_moments(h, x, i, least + window, size)
         if not cut:
-            bend, t_c = _bend((m0, m1, m2, m3, m4), (r0, r1, r2))
+            bend, t_c = _bend((m0, m1, m2, m3, m4), (r0, r1, r2), size)
             share = min(max((bend / A - _HOLLOW) / (_WHOLE - _HOLLOW), 0.0), 1.0)
             share *= share * (3.0 - 2.0 * share)
             level = (r0 - bend * (m2 - 2.0 * t_c * m1 + t_c * t_c * m0)) / m0

@@ -15,7 +15,7 @@ from contact.kernels.rows import Curve
 Frame = tuple[float, float, float, float]
 
 _STEEPEST = 0.17  # cosine of the largest angle between a surface and the contact plane, 80°
-_NEAR = 50e-6  # [m] gap at which samples are half as dense as in contact
+_NEAR = 50e-6  # [m] gap at which samples are half as dense as in contact, times `size_of`
 _SPARSEST = 0.05  # least density of samples, relative to that in contact
 
 
@@ -120,27 +120,27 @@ def normal_gap(wheel: Array, n_wheel: int, rail: Array, n_rail: int, low: float,
 
 
 @kernel
-def _share(wheel: Array, j: int, low: float, high: float) -> tuple[float, float, float]:
+def _share(wheel: Array, j: int, low: float, high: float, near: float) -> tuple[float, float, float]:
     """Return the ends of segment j within low … high and its share of the samples, width times density."""
     u0, u1 = max(wheel[Curve.Y, j], low), min(wheel[Curve.Y, j + 1], high)
     gap = max(0.5 * (wheel[Curve.GAP, j] + wheel[Curve.GAP, j + 1]), 0.0)
-    return u0, u1, max(u1 - u0, 0.0) * max(_NEAR / (_NEAR + gap), _SPARSEST)
+    return u0, u1, max(u1 - u0, 0.0) * max(near / (near + gap), _SPARSEST)
 
 
 @kernel
-def spread(wheel: Array, n_wheel: int, low: float, high: float, out: Array) -> None:
-    """Fill `out` with sample positions over low … high, dense where the gap is small.
+def spread(wheel: Array, n_wheel: int, low: float, high: float, size: float, out: Array) -> None:
+    """Fill `out` with sample positions over low … high, dense where the gap is small for a wheel of this `size`.
 
     Curvature jumps and narrow lobes may lie anywhere in a patch, but regions far from contact need few samples.
     """
-    n = out.size
+    n, near = out.size, _NEAR * size
     total = 0.0
     for j in range(n_wheel - 1):
-        total += _share(wheel, j, low, high)[2]
+        total += _share(wheel, j, low, high, near)[2]
     step = total / (n - 1.0)
     passed, k = 0.0, 1
     for j in range(n_wheel - 1):
-        u0, u1, share = _share(wheel, j, low, high)
+        u0, u1, share = _share(wheel, j, low, high, near)
         while k < n - 1 and k * step <= passed + share:
             out[k] = u0 + (u1 - u0) * (k * step - passed) / share
             k += 1

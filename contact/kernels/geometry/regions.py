@@ -11,12 +11,14 @@ from contact.core import kernel
 from contact.kernels.arrays import SurfaceSearch
 from contact.kernels.geometry.curve import Array, Record
 from contact.kernels.geometry.grids import aligned, fill_coarse, fill_grid, lateral_range
+from contact.kernels.geometry.search import size_of
 from contact.kernels.geometry.section import AWAY
 from contact.kernels.records import MAX_LOBES
 from contact.kernels.rows import Box, Cell
 
 Extent = tuple[int, int, int, int]
 
+# Lengths for a wheel of the usual radius (`search.size_of`).
 FARTHEST = 0.3  # [m] before and behind the axle
 _COARSE = 4e-3  # [m] step of the coarse grid along x
 _SLACK = 80e-6  # [m] by which heights on the coarse grid may miss a lobe
@@ -63,10 +65,10 @@ def scan(space: SurfaceSearch) -> bool:
     The reach is doubled as long as the bodies still come closer at its ends, as on a steep ramp.
     """
     motion, box, coarse = space.motion[0], space.boxes[0], space.coarse
-    reach, n_x = motion.reach, 0
+    reach, n_x, size = motion.reach, 0, size_of(motion)
     while True:
         low, high = lateral_range(reach, space)
-        n_x = min(2 * math.ceil(reach / _COARSE) + 1, coarse.shape[2])
+        n_x = min(2 * math.ceil(reach / (_COARSE * size)) + 1, coarse.shape[2])
         n_y = coarse.shape[1]
         if low < high:
             box[Box.X], box[Box.DX] = -reach, 2.0 * reach / (n_x - 1)
@@ -74,7 +76,7 @@ def scan(space: SurfaceSearch) -> bool:
             fill_coarse(box, coarse[0], n_x, space)
         box[Box.COLUMNS] = n_x
         found = low < high and box[Box.LEAST] < AWAY
-        if not found or reach >= FARTHEST:
+        if not found or reach >= FARTHEST * size:
             return found
         ends = AWAY, AWAY, AWAY, AWAY
         for i in range(n_y):
@@ -84,7 +86,7 @@ def scan(space: SurfaceSearch) -> bool:
             )  # fmt: skip
         if not (ends[0] < ends[1] or ends[2] < ends[3]):
             return True
-        reach = min(2.0 * reach, FARTHEST)
+        reach = min(2.0 * reach, FARTHEST * size)
 
 
 @kernel
@@ -147,7 +149,10 @@ def lay_rough(level: float, space: SurfaceSearch) -> int:
     coarse, rough, boxes, layers = space.coarse, space.rough, space.boxes, len(Cell)
     n_coarse = int(boxes[0, Box.COLUMNS])
     coarse[1, :, :] = 0.0
-    n = min(label_regions(coarse[0], coarse[1], n_coarse, level + _SLACK, space.stack), rough.shape[0] // layers)
+    n = min(
+        label_regions(coarse[0], coarse[1], n_coarse, level + _SLACK * size_of(space.motion[0]), space.stack),
+        rough.shape[0] // layers,
+    )
     for k in range(n):
         cells, box = rough[layers * k : layers * (k + 1)], boxes[k + 1]
         size = cells.shape[1], cells.shape[2]
@@ -224,21 +229,21 @@ def touch(space: SurfaceSearch) -> float:
 
     The surroundings of the least point of every rough grid are divided once more, at an edge several times.
     """
-    layers, boxes = len(Cell), space.boxes
-    n, most = lay_rough(boxes[0, Box.LEAST] + _DEPTH, space), space.fine.shape[0] // layers
+    layers, boxes, size = len(Cell), space.boxes, size_of(space.motion[0])
+    n, most = lay_rough(boxes[0, Box.LEAST] + _DEPTH * size, space), space.fine.shape[0] // layers
     lowest = AWAY
     for k in range(n):
         lowest = min(lowest, boxes[k + 1, Box.LEAST])
     for k in range(n):
         box, cells = boxes[most + 1 + k], space.fine[layers * k : layers * (k + 1)]
         least, row, col, _ = least_gap(space.rough[layers * k])
-        if least > lowest + _SLACK:
+        if least > lowest + _SLACK * size:
             continue
         for zoom in range(_ZOOMS):
             _cover((row, row, col, col), box if zoom > 0 else boxes[k + 1], box, (cells.shape[1], cells.shape[2]))
             fill_grid(box, cells, cells.shape[2], space)
             least, row, col, bend = least_gap(cells[Cell.GAP])
-            if bend <= _BENT:
+            if bend <= _BENT * size:
                 break
         lowest = min(lowest, least)
     return lowest

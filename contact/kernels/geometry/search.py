@@ -16,7 +16,17 @@ from contact.kernels.rows import Curve
 
 _COINCIDENT = 1e-9  # [m] distance below which points coincide
 _GAUSS_T = 0.5 * math.sqrt(0.6)  # outer nodes of three-point Gauss, from the middle of an interval of length 1
+_USUAL_RADIUS = 0.46  # [m] of a tape circle, for which the lengths of the search are given
 _TRANSITION = 0.25  # of the limits of distance and angle: width of the transition from one plane to two
+
+
+@kernel
+def size_of(motion: Record) -> float:
+    """Return the radius of the tape circle over the usual one. Lengths of the search are multiplied by it.
+
+    So bodies of 1:k, as on a roller rig, are searched as bodies of 1:1.
+    """
+    return motion.radius / _USUAL_RADIUS
 
 
 @entry

@@ -11,7 +11,7 @@ from contact.kernels.enumerations import Height, LoadKind, NoAnswer
 from contact.kernels.geometry import surface
 from contact.kernels.geometry.curve import Array, Record
 from contact.kernels.geometry.frame import describe_all
-from contact.kernels.geometry.search import place, touch, trace, vertical_gap
+from contact.kernels.geometry.search import place, size_of, touch, trace, vertical_gap
 from contact.kernels.normal.analyn import analyn
 from contact.kernels.result import clear
 from contact.kernels.rows import Sep
@@ -22,7 +22,7 @@ _ROUGHER = 1e-8  # the same on surfaces that change along the way, whose grids m
 #: Forces after which surfaces are searched anew for each height. Before, grids that are laid for another height serve, which
 #: takes less time, but the force then depends on the way to it by up to 2 % where the gap is rough.
 _ANEW = 12
-DEEPEST = 5e-3  # [m] below first touch, far beyond any load that steel carries
+DEEPEST = 5e-3  # [m] below first touch, times `size_of`, far beyond any load that steel carries
 
 
 @kernel
@@ -126,7 +126,7 @@ def locate(space: Search) -> int:
     above, z0, nodes = begin(space, z)
     if not above:
         return NoAnswer.NO_OVERLAP.value
-    if z > z0 + DEEPEST:
+    if z > z0 + DEEPEST * size_of(space.motion[0]):
         return NoAnswer.TOO_DEEP.value
     return describe(space, z, nodes)
 
@@ -154,7 +154,8 @@ def settle(mode: int, amount: float, space: Search) -> int:
         return describe(space, z0 + amount, nodes)
     target, tolerance = amount ** (2.0 / 3.0), _ROUGHER if motion.changing else _TOLERANCE
     low, high, f_low, f_high = 0.0, math.inf, -target, 0.0
-    p = min(1e-4 * (amount / 1e5) ** (2.0 / 3.0), DEEPEST)
+    size = size_of(motion)
+    p = min(1e-4 * (amount / 1e5) ** (2.0 / 3.0) / size ** (1.0 / 3.0), DEEPEST * size)
     side = 0
     anew = _ANEW if motion.changing else _MAX_ITERATIONS
     patient = 15 + (_ANEW if motion.changing else 0)  # the last iterations of regula falsi
@@ -179,6 +180,6 @@ def settle(mode: int, amount: float, space: Search) -> int:
             p = low - f_low * (high - low) / (f_high - f_low) if iteration < patient else 0.5 * (low + high)
         else:  # extrapolate the line and go a little further
             p = min(1.05 * p * target / (f + target), 3.0 * p) if f > -target else 3.0 * p
-            if p > DEEPEST:
+            if p > DEEPEST * size:
                 return NoAnswer.NOT_SETTLED.value
     return NoAnswer.NOT_SETTLED.value

@@ -8,7 +8,7 @@ from contact.kernels.geometry import grids, regions
 from contact.kernels.geometry.curve import Array, Record
 from contact.kernels.geometry.frame import slip
 from contact.kernels.geometry.parabolas import fit_rows
-from contact.kernels.geometry.search import axle, combine, join, shared, untie
+from contact.kernels.geometry.search import axle, combine, join, shared, size_of, untie
 from contact.kernels.geometry.section import AWAY, Frame, about_x, column, tilted
 from contact.kernels.rows import Box, Over, Sep
 
@@ -16,7 +16,7 @@ Paths = tuple[int, int, int, int]
 
 _ROOM_X, _ROOM_Y = 0.15, 0.35  # of its length and width, by which samples extend beyond the overlap
 _DEEPER = 1.3  # depth up to which grids are laid, over that of the pose
-_LEAST_DEPTH = 5e-6  # [m] least depth for which they are
+_LEAST_DEPTH = 5e-6  # [m] least depth for which they are, times `size_of`
 _AGAIN = 0.2  # share of their depth below which they are laid anew
 
 
@@ -59,7 +59,7 @@ def _lay_for(z: float, space: SurfaceSearch) -> None:
     depth, laid = z - notes[Box.TOUCH], notes[Box.LAID] - notes[Box.TOUCH]
     if depth > laid or depth < _AGAIN * laid:
         space.motion[0].z = 0.0
-        regions.lay_fine(notes[Box.TOUCH] + max(_DEEPER * depth, _LEAST_DEPTH), space)
+        regions.lay_fine(notes[Box.TOUCH] + max(_DEEPER * depth, _LEAST_DEPTH * size_of(space.motion[0])), space)
 
 
 @kernel
@@ -168,7 +168,7 @@ def _describe(z: float, lobe: Record, neighbours: tuple[float, float], k: int, s
         for j in range(space.h.shape[1]):
             if space.h[i, j] < AWAY:
                 space.h[i, j] -= least
-    patch.fit_error = fit_rows(space.h, space.x, -least, front - back + 2.0 * along, out)
+    patch.fit_error = fit_rows(space.h, space.x, -least, front - back + 2.0 * along, size_of(motion), out)
     wheel = _heights_at_origin(frame, limits, space)[1]
     _positions(motion, frame, wheel if wheel > -AWAY else 0.0, patch)
     return True

@@ -7,10 +7,10 @@ b). ANALYN applies these factors, of the local A(y), B(y), to the true separatio
 
 So a strip is in contact where d(y) = delta - (1 + beta) g > 0. Its half length is a = √(d/((1 + alpha) A)). Its peak
 pressure is that of a Hertz contact (A, B) at approach d: p0 = (2 E*/pi) d/(n r a) (thesis Eq. 9.1, corrected). Its
-strip load (pi/2) p0 a = E* d/(n r) is linear in d, so the load is a convex, monotone function of the approach.
+strip load (pi/2) p0 a = E* d/(n r) is linear in d, so the load is a continuous function of the approach.
 
-The thesis does not say how curvature jumps are treated. Here B(y) is a second difference over a fixed width and floored
-(theory.md 3.3), and the deformation beta·g of a flank never falls where the gap opens (set D: mean error of N 2.78 →
+The thesis does not say how curvature jumps are treated. Here B(y) is a second difference over a share of the overlap, and
+floored (`curvature`), and the deformation beta·g of a flank never falls where the gap opens (set D: mean error of N 2.78 →
 2.69 %, of the area 2.96 → 2.85 %; among 400 other real patches no satellite patch instead of three).
 """
 
@@ -21,19 +21,13 @@ from contact.kernels import cubic
 from contact.kernels.cubic import locate, slopes
 from contact.kernels.enumerations import LoadKind, Status
 from contact.kernels.hertz import local_factors
+from contact.kernels.normal.curvature import base_of, floor_of, floored, half_width, lateral_curvature
+from contact.kernels.normal.deepest import first_approach, lowest
 from contact.kernels.normal.lay import at_end, find_patches, lay_strips, least_point
 from contact.kernels.rows import Sample, Strip
 
-#: Half base of the second difference that gives B(y) [m]: a triangular average of g'' with standard deviation 1 mm.
-CURVATURE_HALF_BASE = 2.45e-3
-#: Smallest half curvature B [1/m]. Negative and vanishing curvature count as this value, CONTACT's (theory.md 3.3).
-CURVATURE_FLOOR = 0.1
-
 #: An overlap below this fraction of the separation's width is round-off, not contact.
 NO_OVERLAP = 1e-14
-
-#: Number of nodes per half base at which the local factors are computed.
-NODES_PER_HALF_BASE = 5
 
 #: Largest ratio of the fall of the deformation to the fall of the gap (`_keep_rising`).
 STEEPEST = 20.0
@@ -46,98 +40,21 @@ _STEPS, _MAX_ITERATIONS = 15, 60
 
 
 @kernel
-def floored(B):
-    """Return max(B, floor) [1/m] with its corner rounded to a continuous slope. It is B from twice the floor on."""
-    if B >= 2.0 * CURVATURE_FLOOR:
-        return B
-    if B <= 0.0:
-        return CURVATURE_FLOOR
-    return CURVATURE_FLOOR + B * B / (4.0 * CURVATURE_FLOOR)
+def prepare(y, g, A, n, g_least, delta, work):
+    """Fill local Hertz factors and effective gap (1 + beta)(g - min g) at every sample, for the approach `delta` > 0.
 
-
-@kernel
-def lateral_curvature(y, g, m, n, i, below, above):
-    """Return B = g''/2 [1/m] at sample i and two indices for the neighbouring sample.
-
-    B is a second difference of the interpolated gap over ±CURVATURE_HALF_BASE. That is g'' averaged with a triangle. It
-    needs no second derivative of noisy profiles, has a fixed physical width, and is exact for a parabola. At the ends
-    of the data the base is shifted inwards. `below` and `above` are any indices to search from.
+    GAP_SLOPE of `work` holds the slopes of the gap.
     """
-    base = max(CURVATURE_HALF_BASE, 0.5 * (y[min(i + 1, n - 1)] - y[max(i - 1, 0)]))
-    base = min(base, 0.5 * (y[n - 1] - y[0]))
-    centre = min(max(y[i], y[0] + base), y[n - 1] - base)
-    middle = g[i]
-    if centre != y[i]:
-        k = locate(y, n, centre, 0)
-        h = y[k + 1] - y[k]
-        middle = cubic.value(h, g[k], m[k], g[k + 1], m[k + 1], (centre - y[k]) / h)
-    below = locate(y, n, centre - base, below)
-    h = y[below + 1] - y[below]
-    left = cubic.value(h, g[below], m[below], g[below + 1], m[below + 1], (centre - base - y[below]) / h)
-    above = locate(y, n, centre + base, above)
-    h = y[above + 1] - y[above]
-    right = cubic.value(h, g[above], m[above], g[above + 1], m[above + 1], (centre + base - y[above]) / h)
-    return 0.5 * (left - 2.0 * middle + right) / (base * base), below, above
-
-
-@kernel
-def lattice(span, n):
-    """Return the step of the nodes at which B is computed [m], their number to each side of the middle, and per half base.
-
-    If there were more nodes than samples, the step is made larger.
-    """
-    apart = NODES_PER_HALF_BASE
-    step = min(CURVATURE_HALF_BASE, 0.5 * span) / apart
-    count = 0.5 * span / step * (1.0 + 1e-12)  # compared as a float: any span is allowed, also one that has overflowed
-    half = max(int(count), apart) if count < n else n
-    if 2 * half >= n:
-        half = (n - 1) // 2
-        step = 0.5 * span / half
-        apart = min(max(int(CURVATURE_HALF_BASE / step + 0.5), 1), half)
-    return step, half, apart
-
-
-@kernel
-def prepare(y, g, A, n, g_least, work):
-    """Fill local Hertz factors and effective gap (1 + beta)(g - min g) at every sample.
-
-    The factors follow B, which is an average over the base. Between nodes a fifth of it apart they are nearly linear,
-    and exactly so if B is constant. The nodes lie symmetrically in the data, whatever the gap, and B is a second
-    difference of the gap at them. Closer to an end of the data than the base, B is that of the last node with a whole
-    base.
-    """
-    gaps, curvatures = work[Sample.EFFECTIVE_SLOPE], work[Sample.SHARE]  # of nodes; both rows are free until the slopes
-    step, half, apart = lattice(y[n - 1] - y[0], n)
-    first = 0.5 * (y[0] + y[n - 1]) - half * step
-    k = 0
-    for j in range(2 * half + 1):
-        at = min(max(first + j * step, y[0]), y[n - 1])
-        k = locate(y, n, at, k)
-        h = y[k + 1] - y[k]
-        t = (at - y[k]) / h if h > 0.0 else 0.0
-        gaps[j] = cubic.value(h, g[k], work[Sample.GAP_SLOPE, k], g[k + 1], work[Sample.GAP_SLOPE, k + 1], t)
-        curvatures[j] = (1.0 - t) * A[k] + t * A[k + 1]
-    # no overflow and no 0·inf where samples are closer than round-off
-    scale, per_step = 0.5 / max((apart * step) ** 2, 1e-300), 1.0 / max(step, 1e-300)
-    i = 0
-    alpha, beta, nr, log_aspect = 0.0, 0.0, 0.0, 0.0
-    for j in range(2 * half + 2):
-        alpha_before, beta_before, nr_before, log_before = alpha, beta, nr, log_aspect
-        if j <= 2 * half:
-            c = min(max(j, apart), 2 * half - apart)
-            B = (gaps[c - apart] - 2.0 * gaps[c] + gaps[c + apart]) * scale
-            alpha, beta, nr, log_aspect = local_factors(curvatures[j], floored(B if B > 0.0 else 0.0))
-        if j == 0:
-            alpha_before, beta_before, nr_before, log_before = alpha, beta, nr, log_aspect
-        left, end, beyond = first + (j - 1) * step, first + j * step, j > 2 * half
-        d_alpha, d_beta = (alpha - alpha_before) * per_step, (beta - beta_before) * per_step
-        d_nr, d_log = (nr - nr_before) * per_step, (log_aspect - log_before) * per_step
-        while i < n and (beyond or y[i] < end):  # also samples that have overflowed, so that all are written
-            t = y[i] - left
-            work[Sample.STRETCHED_A, i] = A[i] * (alpha_before + t * d_alpha)
-            work[Sample.EFFECTIVE_GAP, i] = (beta_before + t * d_beta) * (g[i] - g_least)
-            work[Sample.NR, i], work[Sample.LOG_ASPECT, i] = nr_before + t * d_nr, log_before + t * d_log
-            i += 1
+    m = work[Sample.GAP_SLOPE]
+    half = half_width(y, g, m, n, g_least, delta)
+    floor = floor_of(half, delta)
+    below, above = 0, 0
+    for i in range(n):
+        B, below, above = lateral_curvature(y, g, m, n, i, base_of(half, A[i]), below, above)
+        alpha, beta, nr, log_aspect = local_factors(A[i], floored(B, floor))
+        work[Sample.STRETCHED_A, i] = A[i] * alpha
+        work[Sample.EFFECTIVE_GAP, i] = beta * (g[i] - g_least)
+        work[Sample.NR, i], work[Sample.LOG_ASPECT, i] = nr, log_aspect
     _keep_rising(g, n, work)
     gap, slope = work[Sample.EFFECTIVE_GAP], work[Sample.EFFECTIVE_SLOPE]
     slopes(y, gap, n, slope)
@@ -264,22 +181,25 @@ def fill_strips(sep, delta, modulus, across, work, edges, strips):
 
 
 @kernel
-def solve_load(sep, y_least, case, across, work, result):
+def solve_load(sep, place, case, across, work, result):
     """Return the approach above first touch [m] that carries the load `case.amount`. Prepare everything for it.
 
+    `place` is that of `lowest`.
+
     N ~ delta^(3/2) in Hertz contact, so steps are bracketed steps on N^(2/3). The first is Newton's. Its slope is that
-    of fixed strips, one or two per cent off, so the others are secants.
+    of fixed strips, one or two per cent off, so the others are secants. The start is the approach of a parabola like the
+    overlap.
     """
     y, n, edges = sep.y, sep.y.size, result.edges
     load, modulus = case.amount, case.G / (1.0 - case.nu)
-    prepare(y, sep.g, sep.A, n, result.touch, work)
-    k = locate(y, n, y_least, 0)
-    hertz = (0.75 * load / modulus * work[Sample.NR, k] * math.sqrt(work[Sample.STRETCHED_A, k])) ** (2.0 / 3.0)
-    delta = estimated_approach(y, n, load, modulus, work, hertz)
+    delta = first_approach(y, sep.g, sep.A, n, place, load, modulus, work)
+    prepare(y, sep.g, sep.A, n, result.touch, delta, work)
+    delta = estimated_approach(y, n, load, modulus, work, delta)
     low, high = 0.0, math.inf
     before, left_before, missing_before = 0.0, 0.0, 1.0
     for iteration in range(_MAX_ITERATIONS):
         result.iterations = iteration + 1
+        prepare(y, sep.g, sep.A, n, result.touch, delta, work)
         N, stiffness = load_at(y, n, delta, modulus, across, work, edges)
         if load > N:
             low = delta
@@ -314,8 +234,8 @@ def analyn(sep, case, across, work, strips, result):
     y, g, A, n = sep.y, sep.g, sep.A, sep.y.size
     modulus = case.G / (1.0 - case.nu)
     edges = result.edges
-    slopes(y, g, n, work[Sample.GAP_SLOPE])
-    y_least, g_least = least_point(y, g, work[Sample.GAP_SLOPE], n)
+    place = lowest(y, g, n, work)
+    g_least = place[1]
     result.status = Status.OK
     result.iterations = 0
     result.touch = g_least
@@ -326,9 +246,9 @@ def analyn(sep, case, across, work, strips, result):
         result.approach = case.amount if by_approach else g_least
         return 0
     if by_approach:
-        prepare(y, g, A, n, g_least, work)
+        prepare(y, g, A, n, g_least, delta, work)
     else:
-        delta = solve_load(sep, y_least, case, across, work, result)
+        delta = solve_load(sep, place, case, across, work, result)
     N, stiffness, n_strips = fill_strips(sep, delta, modulus, across, work, edges, strips)
     if N <= 0.0 or delta <= NO_OVERLAP * (y[n - 1] - y[0]):  # the load is below round-off
         result.status, result.approach = Status.NO_CONTACT, g_least

@@ -13,7 +13,7 @@ from contact.kernels.normal import semi_winkler as sw
 from contact.kernels.normal import srst as sr
 from contact.kernels.normal import stripes
 from contact.kernels.normal.analyn import NO_OVERLAP, fill_strips
-from contact.kernels.normal.deepest import deepest, unit_load
+from contact.kernels.normal.deepest import deepest, first_approach, lowest
 from contact.kernels.normal.kik_piotrowski import PENETRATION, deepest_half_length
 from contact.kernels.normal.kik_piotrowski_2008 import stretch
 from contact.kernels.normal.kpec import share_parabola
@@ -33,7 +33,7 @@ _DIFFERENCE = 1e-6
 
 @kernel
 def _prepare(method, sep, point, work):
-    """Fill the rows of `work` that do not depend on the approach."""
+    """Fill the effective gap, curvature and factors of the samples in `work`."""
     y, g, A, n = sep.y, sep.g, sep.A, sep.y.size
     if method == Normal.STRIPES_A or method == Normal.STRIPES_AB:
         stripes.prepare(y, g, A, n, point, method == Normal.STRIPES_AB, work)
@@ -49,10 +49,12 @@ def _prepare(method, sep, point, work):
 
 
 @kernel
-def _load_at(case, sep, delta, point, across, work, strips, edges):
+def _load_at(case, sep, delta, place, across, work, strips, edges):
     """Fill `strips` at approach delta. Return load [N], number of strips and whether the patch reaches the end of the data."""
     method, modulus = case.normal, case.G / (1.0 - case.nu)
     y, n, panel = sep.y, sep.y.size, across.nodes.size
+    point = deepest(y, sep.g, sep.A, n, place, delta, work)
+    _prepare(method, sep, point, work)
     if method == Normal.STRIPES_A or method == Normal.STRIPES_AB:
         N, _, n_strips = fill_strips(sep, delta, modulus, across, work, edges, strips)
         return N, n_strips, at_end(y, n, edges, n_strips // panel)
@@ -89,16 +91,17 @@ def _load_at(case, sep, delta, point, across, work, strips, edges):
 def by_approach(sep, case, across, work, strips, result):
     """Solve the normal problem. Arguments and results are those of `analyn`."""
     y, n, edges = sep.y, sep.y.size, result.edges
-    point = deepest(y, sep.g, sep.A, n, work)
-    result.status, result.iterations, result.touch = Status.OK, 0, point.g
+    place = lowest(y, sep.g, n, work)
+    result.status, result.iterations, result.touch = Status.OK, 0, place[1]
     load, modulus = case.amount, case.G / (1.0 - case.nu)
     by_load = case.load_kind != LoadKind.APPROACH
-    delta = (max(load, 0.0) / unit_load(point, modulus)) ** (2.0 / 3.0) if by_load else load - point.g
-    result.approach = point.g + delta
+    delta = load - place[1]
+    if by_load:
+        delta = first_approach(y, sep.g, sep.A, n, place, load, modulus, work) if load > 0.0 else 0.0
+    result.approach = place[1] + delta
     if delta <= NO_OVERLAP * (y[n - 1] - y[0]):
         result.status = Status.NO_CONTACT
         return 0
-    _prepare(case.normal, sep, point, work)
 
     if by_load:
         # N ~ delta^(3/2) in Hertz contact, so a bracketed secant on N^(2/3)
@@ -107,7 +110,7 @@ def by_approach(sep, case, across, work, strips, result):
         converged = False
         for iteration in range(MAX_ITERATIONS):
             result.iterations = iteration + 1
-            N, n_strips, touches_end = _load_at(case, sep, delta, point, across, work, strips, edges)
+            N, n_strips, touches_end = _load_at(case, sep, delta, place, across, work, strips, edges)
             if abs(N - load) <= 1e-11 * load:
                 converged = True
                 break
@@ -126,8 +129,8 @@ def by_approach(sep, case, across, work, strips, result):
         if not converged:
             result.status = Status.NOT_CONVERGED
 
-    further, _, _ = _load_at(case, sep, delta * (1.0 + _DIFFERENCE), point, across, work, strips, edges)
-    N, n_strips, touches_end = _load_at(case, sep, delta, point, across, work, strips, edges)
+    further, _, _ = _load_at(case, sep, delta * (1.0 + _DIFFERENCE), place, across, work, strips, edges)
+    N, n_strips, touches_end = _load_at(case, sep, delta, place, across, work, strips, edges)
     if n_strips == 0 or N <= 0.0:
         result.status = Status.NO_CONTACT
         return 0
@@ -138,5 +141,5 @@ def by_approach(sep, case, across, work, strips, result):
         N = load
     if touches_end and result.status == Status.OK:
         result.status = Status.OUT_OF_RANGE
-    result.N, result.approach = N, point.g + delta
+    result.N, result.approach = N, place[1] + delta
     return n_strips

@@ -22,7 +22,7 @@ import math
 
 from contact.core import kernel
 from contact.kernels.hertz import local_factors
-from contact.kernels.normal.analyn import floored
+from contact.kernels.normal.curvature import floored
 from contact.kernels.normal.lay import find_patches
 from contact.kernels.rows import Sample
 
@@ -42,7 +42,7 @@ def share_parabola(y, g, A, n, delta, point, work, edges):
     """Fill effective gap and curvature. Return the level to cut at, ln(a/b) of the ellipse, and a(0) at the smallest gap."""
     low, high = _zone(y, g, n, delta, point, work, edges)
     middle, half = 0.5 * (low + high), 0.5 * (high - low)
-    B1 = floored(0.5 * delta / (half * half))
+    B1 = floored(0.5 * delta / (half * half), point.floor)
     one_alpha, one_beta, _, log_aspect = local_factors(point.A, B1)
     # A1 a² = delta/(1+alpha) and B1 b² = delta/(1+beta), so the share is a parabola that is added to the gap
     level, bend = delta / one_alpha, B1 * (one_beta / one_alpha - 1.0)

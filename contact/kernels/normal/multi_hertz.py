@@ -22,7 +22,7 @@ import numpy as np
 from contact.core import entry, kernel
 from contact.kernels.cubic import locate, slopes
 from contact.kernels.hertz import local_factors
-from contact.kernels.normal.analyn import floored, lateral_curvature
+from contact.kernels.normal.curvature import floored, lateral_curvature
 from contact.kernels.records import MAX_PATCHES
 from contact.kernels.rows import Sample, Strip
 
@@ -108,9 +108,9 @@ def multi_hertz(sep, delta, modulus, point, across, work, strips, edges):
         k = locate(y, n, centre, 0)
         t = (centre - y[k]) / (y[k + 1] - y[k])
         if count > 0:
-            left, below, above = lateral_curvature(y, h, m, n, k, 0, 0)
-            right, _, _ = lateral_curvature(y, h, m, n, k + 1, below, above)
-            B = floored((1.0 - t) * left + t * right)
+            left, below, above = lateral_curvature(y, h, m, n, k, point.base, 0, 0)
+            right, _, _ = lateral_curvature(y, h, m, n, k + 1, point.base, below, above)
+            B = floored((1.0 - t) * left + t * right, point.floor)
         A_here, x_c = (1.0 - t) * A[k] + t * A[k + 1], (1.0 - t) * xc[k] + t * xc[k + 1]
         N += lay_ellipse(strips, count, d, (A_here, B), (centre, x_c), modulus, across, edges)
         if count == 0:

@@ -20,7 +20,7 @@ import math
 
 from contact.core import entry, kernel
 from contact.kernels.cubic import locate, slopes
-from contact.kernels.normal.analyn import floored, lateral_curvature
+from contact.kernels.normal.curvature import floored, lateral_curvature
 from contact.kernels.normal.deepest import unit_load
 from contact.kernels.normal.lay import least_point
 from contact.kernels.rows import Sample, Strip
@@ -48,9 +48,10 @@ def prepare(y, g, A, n, point, work):
     decay = _decay_length(point)
     below, above = 0, 0
     for i in range(n):
-        B, below, above = lateral_curvature(y, g, work[Sample.GAP_SLOPE], n, i, below, above)
-        work[_B, i], work[Sample.STRETCHED_A, i] = floored(B), A[i]
-        work[Sample.EFFECTIVE_GAP, i] = (g[i] - point.g) / _share(floored(B), decay)
+        B, below, above = lateral_curvature(y, g, work[Sample.GAP_SLOPE], n, i, point.base, below, above)
+        B = floored(B, point.floor)
+        work[_B, i], work[Sample.STRETCHED_A, i] = B, A[i]
+        work[Sample.EFFECTIVE_GAP, i] = (g[i] - point.g) / _share(B, decay)
     slopes(y, work[Sample.EFFECTIVE_GAP], n, work[Sample.EFFECTIVE_SLOPE])
     _, least = least_point(y, work[Sample.EFFECTIVE_GAP], work[Sample.EFFECTIVE_SLOPE], n)
     for i in range(n):  # the smallest value of the interpolated product may differ from zero

@@ -19,7 +19,7 @@ import math
 from contact.core import kernel
 from contact.kernels.cubic import locate
 from contact.kernels.enumerations import LoadKind, Status
-from contact.kernels.normal.analyn import analyn
+from contact.kernels.normal.analyn import analyn, prepare
 from contact.kernels.normal.ends import SPUR
 from contact.kernels.normal.iteration import ACCEPTABLE, CLOSE, FREEZE, TOLERANCE, Problem, begin, finish, step
 from contact.kernels.normal.orientation import is_image, turn_back, turn_samples
@@ -146,8 +146,10 @@ def _stands_alone(total, vectors):
 @kernel
 def _report(problem, delta, n_panels):
     """Write the strips and their resultants, where ANALYN's still are. Return the number of strips."""
-    own, strips, result = problem.own, problem.own.strips, problem.result
-    count = write_strips(problem.sep, n_panels, problem.panels, problem.skew > 0.0, own, result)
+    own, strips, result, sep = problem.own, problem.own.strips, problem.result, problem.sep
+    if problem.by_load and delta > 0.0:  # local aspect ratios at this approach, which is not ANALYN's
+        prepare(sep.y, sep.g, sep.A, sep.y.size, problem.touch, delta, own.space.grid)
+    count = write_strips(sep, n_panels, problem.panels, problem.skew > 0.0, own, result)
     if problem.skew > 0.0:
         turn_aspects(count, problem.skew, strips)
     N = 0.0

@@ -18,7 +18,7 @@ import math
 from contact.core import kernel
 from contact.kernels.cubic import slopes
 from contact.kernels.hertz import local_factors
-from contact.kernels.normal.analyn import floored, lateral_curvature
+from contact.kernels.normal.curvature import floored, lateral_curvature
 from contact.kernels.rows import Sample
 
 
@@ -31,8 +31,8 @@ def prepare(y, g, A, n, point, both, work):
         share *= (1.0 + point.A / point.B) / (1.0 + ratio2)
     below, above = 0, 0
     for i in range(n):
-        B, below, above = lateral_curvature(y, g, work[Sample.GAP_SLOPE], n, i, below, above)
-        B = floored(B)
+        B, below, above = lateral_curvature(y, g, work[Sample.GAP_SLOPE], n, i, point.base, below, above)
+        B = floored(B, point.floor)
         _, _, nr, log_aspect = local_factors(A[i], B)
         ratio2 = math.exp(-2.0 * log_aspect)
         corrected = (A[i] + B) * ratio2 / (1.0 + ratio2) if both else ratio2 * B

@@ -331,7 +331,7 @@ def follow(sep: Samples, amount: float, own: Workspace, result: Result) -> int:
     y, g, size = samples.y, samples.g, samples.y.size
     cubic.slopes(y, g, size, work[Sample.GAP_SLOPE])
     _, touch = least_point(y, g, work[Sample.GAP_SLOPE], size)
-    prepare(y, g, samples.A, size, touch, work)
+    prepare(y, g, samples.A, size, touch, amount - touch, work)
     panels = own.space.iterates[own.space.iterates.shape[0] - 1]
     panels[0], panels[1] = low, high
     lay_panels(samples, touch, 0.0, panels, 1, own)

@@ -1,0 +1,42 @@
+"""On an exactly elliptic gap every method is Hertz's, for every ratio of the curvatures and every size."""
+
+import itertools
+
+import pytest
+
+import contact
+
+NO_CREEP = contact.Creepage()
+RATIOS = (1e-3, 1e-2, 0.05, 0.2, 1.0, 7.0, 1e2, 1e3)
+#: Size of the bodies over that of a wheel, and their load over its square [N].
+SIZES = [(1e-2, 8e4), (1.0, 8e4), (1.0, 10.0), (30.0, 8e4)]
+CASES = list(itertools.product(RATIOS, SIZES))
+
+
+def separation(ratio, size):
+    """Return a separation with A/B = `ratio` and max(A, B) = 1/`size`."""
+    largest = max(ratio, 1.0)
+    return ratio / largest / size, 1.0 / largest / size
+
+
+@pytest.mark.parametrize("normal", ["hertz", "analyn"])
+def test_pressure_axes_and_approach_are_hertzs(normal):
+    for ratio, (size, load) in CASES:
+        A, B = separation(ratio, size)
+        exact = contact.hertz(A, B, load=load * size**2)
+        sol = contact.solve(contact.Separation.hertzian(A, B), NO_CREEP, load=load * size**2, normal=normal)
+        found = sol.max_pressure, 0.5 * sol.width, sol.approach
+        assert found == pytest.approx((exact.p0, exact.b, exact.approach), rel=2e-7), (ratio, size, load)
+        assert sol.gap_error < 0.01
+
+
+def test_strips_that_interact_are_close_to_hertz_and_say_so():
+    for ratio, (size, load) in CASES:
+        if not 5e-3 < ratio < 2e2:
+            continue
+        A, B = separation(ratio, size)
+        exact = contact.hertz(A, B, load=load * size**2)
+        sol = contact.solve(contact.Separation.hertzian(A, B), NO_CREEP, load=load * size**2)
+        assert sol.max_pressure == pytest.approx(exact.p0, rel=4e-3), (ratio, size, load)
+        assert sol.approach == pytest.approx(exact.approach, rel=2e-3), (ratio, size, load)
+        assert sol.gap_error < 0.01
