@@ -12,7 +12,7 @@ from contact.kernels.block import ahead
 from contact.kernels.pair import solve_patch
 from contact.kernels.rows import DamageField, Field, Strip
 from fmu_src.native import wheel_rail_pair
-from fmu_src.tables.wheel_rail_pair import ACCUMULATED, LOAD_KIND, table
+from fmu_src.tables.wheel_rail_pair import ACCUMULATED, table
 
 #: Rows of a patch that the page draws, one number a strip.
 STRIPS = (Strip.Y, Strip.DY, Strip.XC, Strip.A)
@@ -21,7 +21,6 @@ FIELDS = (Field.X, Field.DX, Field.P, Field.QX, Field.QY, Field.SX, Field.SY, Fi
 N_ELEMENT_ROWS = len(FIELDS) + 1
 
 _STRIPS, _FIELDS = np.array(STRIPS), np.array(FIELDS)  # an index into a tuple could raise an exception
-_BY_HEIGHT = LOAD_KIND.number("Position")
 
 
 def entries() -> dict[str, Callable[..., Any]]:
@@ -32,13 +31,13 @@ def entries() -> dict[str, Callable[..., Any]]:
     rows = table()
     arrange = wheel_rail_pair.layout_of(rows).arrange
     n_values = rows.span[ACCUMULATED[0]].start
-    kind, elements = rows.span["load.kind"].start, rows.span["resolution.n_elements"].start
+    elements = rows.span["resolution.n_elements"].start
     energy = DamageField.ENERGY_INDEX
 
     def model_field(values, work, k, given):
         v = carray(values, (n_values,))
         bench, _, _ = arrange(v, work, given)
-        own, n = bench.own, solve_patch(k, v[kind] != _BY_HEIGHT, bench)
+        own, n = bench.own, solve_patch(k, bench)
         m = int(v[elements])
         by_strip = carray(ahead(values, n_values), (len(STRIPS), n))
         by_element = carray(ahead(values, n_values + len(STRIPS) * n), (N_ELEMENT_ROWS, n, m))
