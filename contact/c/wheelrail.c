@@ -4,7 +4,10 @@
 #define WR_BUILD
 #include "wheelrail.h"
 
+#include <inttypes.h>
 #include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "wheelrail_entries.h"
@@ -32,6 +35,10 @@ static double is_wide(void) { return 0.0; }
 #endif
 
 /* ---------------------------------------------------------------- codes: -(100 * argument + reason) */
+
+#define LARGEST_PENETRATION 0.002 /* [m] */
+#define TEXT_(number) #number
+#define TEXT(number) TEXT_(number)
 
 #define REASONS(X)                                                                                               \
     X(IS_NULL, "the pointer is NULL")                                                                            \
@@ -61,7 +68,11 @@ static double is_wide(void) { return 0.0; }
     X(COARSE, "no element lies inside a patch")                                                                  \
     X(UNEVEN, "the steps are not equal")                                                                         \
     X(UPSIDE_DOWN, "the profile is upside down: z points down, so give -z")                                      \
-    X(MIRRORED, "the profile is mirrored: the flange lies at negative y, so give -y and z in reverse order")
+    X(MIRRORED, "the profile is mirrored: the flange lies at negative y, so give -y and z in reverse order")      \
+    X(FAMILY, "the family is not that of the method; wr_contact_case fills it")                                  \
+    X(NEGATIVE, "a load is not negative")                                                                        \
+    X(PENETRATION, "a penetration is at most " TEXT(LARGEST_PENETRATION) " m")                                   \
+    X(BACKWARDS, "on surfaces a wheel rolls forward only")
 
 enum { R_NONE,
 #define X(name, text) R_##name,
@@ -69,55 +80,25 @@ enum { R_NONE,
 #undef X
        R_END };
 
-#define ARGUMENTS(X)                                                                                                 \
-    X(memory, "memory") X(bytes, "bytes") X(options, "options") X(result, "result") X(separation, "separation")      \
-    X(n, "n") X(sep_n, "separation.n") X(sep_y, "separation.y") X(sep_g, "separation.g") X(sep_A, "separation.A")    \
-    X(sep_x_c, "separation.x_c") X(sep_tilt, "separation.tilt") X(problem, "case") X(jacobian, "jacobian")           \
-    X(fields, "fields") X(parameters, "parameters") X(damage, "damage") X(n_separations, "n_separations")            \
-    X(which, "which") X(cases, "cases") X(results, "results") X(size, "size") X(wheel, "wheel") X(rail, "rail")      \
-    X(n_wheel, "n_wheel") X(n_rail, "n_rail") X(wheel_y, "wheel.y") X(wheel_z, "wheel.z")                            \
-    X(wheel_angle, "wheel.angle") X(rail_y, "rail.y") X(rail_z, "rail.z") X(rail_angle, "rail.angle")                \
-    X(input, "input") X(answer, "answer") X(k, "k") X(bins, "bins") X(count, "count") X(mu, "mu")                    \
-    X(speed, "speed") X(load, "load")                                                                                \
-    X(normal, "options.normal") X(tangential, "options.tangential") X(n_strips, "options.n_strips")                  \
-    X(n_elements, "options.n_elements") X(n_samples, "options.n_samples")                                            \
-    X(max_iterations, "options.max_iterations") X(conformal, "options.conformal")                                    \
-    X(shear_modulus, "options.shear_modulus") X(poisson_ratio, "options.poisson_ratio")                              \
-    X(pressure_limit, "options.pressure_limit") X(side, "options.side") X(most_patches, "options.most_patches")      \
-    X(wheel_radius, "options.wheel_radius") X(gauge, "options.gauge") X(flange_back, "options.flange_back")          \
-    X(gauge_point, "options.gauge_point") X(combine_distance, "options.combine_distance")                            \
-    X(combine_angle, "options.combine_angle") X(n_bins, "options.n_bins") X(bin_start, "options.bin_start")          \
-    X(bin_width, "options.bin_width") X(height, "input.height") X(amount, "input.amount")                            \
-    X(distance, "input.distance") X(motion, "input.motion") X(offset, "input.offset") X(springs, "input.rail")       \
-    X(p_speed, "parameters.speed") X(p_radius, "parameters.wheel_radius") X(p_hardness, "parameters.hardness")       \
-    X(p_yield, "parameters.shear_yield") X(p_rail_wear, "parameters.rail_wear")                                      \
-    X(p_spin, "parameters.with_spin") X(p_law, "parameters.wear_law")                                                \
-    X(p_constants, "parameters: constants of a law")                                                                 \
-    X(n_strips_most, "fields.n_strips_most")                                                                         \
-    X(c_load_kind, "case.load_kind") X(c_amount, "case.amount") X(c_normal, "case.normal")                           \
-    X(c_normal_family, "case.normal_family") X(c_tangential, "case.tangential")                                      \
-    X(c_tangential_family, "case.tangential_family") X(c_vx, "case.vx") X(c_vy, "case.vy") X(c_phi, "case.phi")      \
-    X(c_speed, "case.speed") X(c_G, "case.G") X(c_nu, "case.nu") X(c_pressure_limit, "case.pressure_limit")          \
-    X(c_max_iterations, "case.max_iterations") X(c_mu, "case.mu") X(c_law, "case.law")                               \
-    X(c_kinetic, "case.kinetic") X(c_half_speed, "case.half_speed") X(c_velocity, "case.velocity")                   \
-    X(c_slope, "case.slope") X(c_slope_far, "case.slope_far") X(c_slope_rate, "case.slope_rate")                     \
-    X(c_gauge_factor, "case.gauge_factor") X(c_border, "case.border") X(c_border_width, "case.border_width")         \
-    X(c_k_A, "case.k_A") X(c_k_S, "case.k_S") X(c_drop, "case.drop") X(c_warm, "case.warm")                          \
-    X(c_warm_range, "case.warm_range") X(c_heating, "case.heating") X(c_conformal, "case.conformal")                 \
-    X(c_rolling, "case.rolling") X(c_tolerance, "case.tolerance") X(reach, "options.reach")                          \
-    X(tilted, "options.tilted") X(wheel_n, "wheel.n") X(rail_n, "rail.n") X(wheel_numbers, "wheel.numbers")          \
-    X(rail_numbers, "rail.numbers") X(station, "input.station") X(rotation, "input.rotation")              \
-    X(force_x, "Fx") X(force_y, "Fy") X(surface_load, "load") X(nx, "load.nx") X(ny, "load.ny")                       \
-    X(load_x, "load.x") X(load_y, "load.y") X(load_p, "load.p") X(load_qx, "load.qx") X(load_qy, "load.qy")          \
-    X(body, "body") X(poisson, "poisson_ratio") X(x, "x") X(y, "y") X(z, "z") X(stress, "stress")
+#define TRY(call)              \
+    do {                       \
+        int code_ = (call);    \
+        if (code_) return code_; \
+    } while (0)
 
-enum { A_none,
-#define X(name, text) A_##name,
-       ARGUMENTS(X)
+typedef struct {
+    int number;
+    const char *name;
+    int family, interacting, fields;
+} Method;
+
+#define X(number, name, family, interacting, fields) {number, name, family, interacting, fields},
+static const Method NORMAL[] = {WR_NORMAL_METHODS(X)};
+static const Method TANGENTIAL[] = {WR_TANGENTIAL_METHODS(X)};
 #undef X
-       A_end };
+#define COUNT(array) (sizeof(array) / sizeof *(array))
 
-static int bad(int argument, int reason) { return -(100 * argument + reason); }
+#include "wheelrail_arguments.h"
 
 int wr_abi(void) { return WR_ABI; }
 
@@ -159,29 +140,9 @@ const char *wr_message(int code) {
     return "unknown code";
 }
 
-const char *wr_argument(int code) {
-    if (code < 0 && code > -100 * A_end) switch (-code / 100) {
-#define X(name, text) case A_##name: return text;
-        ARGUMENTS(X)
-#undef X
-        default: break;
-        }
-    return "";
-}
+const char *wr_argument(int code) { return code < 0 && code > -100 * A_end ? ARGUMENT[-code / 100].name : ""; }
 
 /* ---------------------------------------------------------------- methods */
-
-typedef struct {
-    int number;
-    const char *name;
-    int family, interacting, fields;
-} Method;
-
-#define X(number, name, family, interacting, fields) {number, name, family, interacting, fields},
-static const Method NORMAL[] = {WR_NORMAL_METHODS(X)};
-static const Method TANGENTIAL[] = {WR_TANGENTIAL_METHODS(X)};
-#undef X
-#define COUNT(array) (sizeof(array) / sizeof *(array))
 
 static const Method *find(int tangential, int64_t number) {
     const Method *known = tangential ? TANGENTIAL : NORMAL;
@@ -215,23 +176,7 @@ int wr_method_number(const char *kind, const char *name) {
 
 /* ---------------------------------------------------------------- checks */
 
-#define TRY(call)              \
-    do {                       \
-        int code_ = (call);    \
-        if (code_) return code_; \
-    } while (0)
-
 static int need(const void *pointer, int argument) { return pointer == NULL ? bad(argument, R_IS_NULL) : 0; }
-
-static int within(double value, double low, double high, int argument) {
-    if (!isfinite(value)) return bad(argument, R_NOT_FINITE);
-    return value < low || value > high ? bad(argument, R_RANGE) : 0;
-}
-
-static int above(double value, int argument) { /* positive and finite */
-    TRY(within(value, 0.0, INFINITY, argument));
-    return value == 0.0 ? bad(argument, R_RANGE) : 0;
-}
 
 static int among(int64_t value, int64_t low, int64_t high, int argument) {
     return value < low || value > high ? bad(argument, R_RANGE) : 0;
@@ -248,24 +193,10 @@ static int aligned(const void *pointer, int argument) {
     return (uintptr_t)pointer % 8 ? bad(argument, R_ALIGNED) : 0;
 }
 
-static int check_limit(double limit, int argument) { /* 0 or infinite for none */
-    return limit >= 0.0 ? 0 : bad(argument, isnan(limit) ? R_NOT_FINITE : R_RANGE);
-}
-
 static int check_contact_options(const wr_contact_options *o) {
     TRY(aligned(o, A_options));
     if (o->size != (int64_t)sizeof *o) return bad(A_options, R_STRUCT);
-    const Method *rolling = find(1, o->tangential);
-    if (find(0, o->normal) == NULL) return bad(A_normal, R_RANGE);
-    if (rolling == NULL) return bad(A_tangential, R_RANGE);
-    TRY(among(o->n_strips, 4, 1000, A_n_strips));
-    TRY(among(o->n_elements, 4, 1000, A_n_elements));
-    TRY(among(o->n_samples, 3, 100000, A_n_samples));
-    TRY(among(o->max_iterations, 1, 1000, A_max_iterations));
-    TRY(among(o->conformal, 0, 1, A_conformal));
-    TRY(above(o->shear_modulus, A_shear_modulus));
-    TRY(within(o->poisson_ratio, 0.0, 0.5, A_poisson_ratio));
-    return check_limit(o->pressure_limit, A_pressure_limit);
+    return check_members(o, A_options_normal, A_options_pressure_limit);
 }
 
 static int check_separation(const wr_separation *s, int64_t most) {
@@ -278,76 +209,40 @@ static int check_separation(const wr_separation *s, int64_t most) {
     TRY(finite_all(s->g, s->n, A_sep_g));
     for (int64_t i = 1; i < s->n; i++)
         if (!(s->y[i] > s->y[i - 1])) return bad(A_sep_y, R_ORDER);
-    for (int64_t i = 0; i < s->n; i++) TRY(above(s->A[i], A_sep_A));
+    for (int64_t i = 0; i < s->n; i++) TRY(check_number(s->A[i], A_sep_A));
     if (s->x_c != NULL) {
         TRY(aligned(s->x_c, A_sep_x_c));
         TRY(finite_all(s->x_c, s->n, A_sep_x_c));
     }
     if (s->tilt != NULL) {
         TRY(aligned(s->tilt, A_sep_tilt));
-        for (int64_t i = 0; i < s->n; i++) TRY(within(s->tilt[i], -1e3, 1e3, A_sep_tilt));
+        for (int64_t i = 0; i < s->n; i++) TRY(check_number(s->tilt[i], A_sep_tilt));
     }
     return 0;
 }
 
-/* Methods, material and friction of a case. */
-static int check_surface(const wr_case *c, const wr_contact_options *o) {
-    const Method *rolling = find(1, c->tangential);
-    if (c->normal != o->normal) return bad(A_c_normal, R_DIFFERS);
-    if (c->normal_family != find(0, o->normal)->family) return bad(A_c_normal_family, R_RANGE);
-    if (rolling == NULL) return bad(A_c_tangential, R_RANGE);
-    if (c->tangential_family != rolling->family) return bad(A_c_tangential_family, R_RANGE);
-    TRY(within(c->speed, 0.0, INFINITY, A_c_speed));
-    TRY(above(c->G, A_c_G));
-    TRY(within(c->nu, 0.0, 0.5, A_c_nu));
-    if (c->nu != o->poisson_ratio) return bad(A_c_nu, R_DIFFERS);
-    TRY(check_limit(c->pressure_limit, A_c_pressure_limit));
-    TRY(among(c->max_iterations, 1, 1000, A_c_max_iterations));
-    TRY(within(c->tolerance, 0.0, 1e-2, A_c_tolerance));
-    TRY(within(c->mu, 0.0, 1e6, A_c_mu));
-    TRY(among(c->law, WR_FRICTION_COULOMB, WR_FRICTION_EXPONENTIAL, A_c_law));
-    TRY(within(c->kinetic, 0.0, 1e6, A_c_kinetic));
-    TRY(above(c->half_speed, A_c_half_speed));
-    TRY(among(c->velocity, WR_VELOCITY_GLOBAL, WR_VELOCITY_GREATEST, A_c_velocity));
-    TRY(above(c->slope, A_c_slope));
-    TRY(within(c->slope, 0.0, 1.0, A_c_slope));
-    TRY(within(c->slope_far, 0.0, 1.0, A_c_slope_far));
-    TRY(within(c->slope_rate, 0.0, INFINITY, A_c_slope_rate));
-    TRY(within(c->gauge_factor, 0.0, 100.0, A_c_gauge_factor));
-    TRY(within(c->border, -INFINITY, INFINITY, A_c_border));
-    TRY(within(c->border_width, -INFINITY, INFINITY, A_c_border_width));
-    TRY(above(c->k_A, A_c_k_A));
-    TRY(within(c->k_A, 0.0, 1.0, A_c_k_A));
-    TRY(above(c->k_S, A_c_k_S));
-    TRY(within(c->k_S, 0.0, 1.0, A_c_k_S));
-    TRY(within(c->drop, 0.0, 1.0, A_c_drop));
-    TRY(within(c->warm, -1e5, 1e5, A_c_warm));
-    TRY(above(c->warm_range, A_c_warm_range));
-    TRY(within(c->heating, 0.0, INFINITY, A_c_heating));
-    return among(c->conformal, 0, 1, A_c_conformal);
+/* Methods, material and friction of a case.  `of` is the struct that has it, and `first` the argument of its first member. */
+static int check_surface(const wr_case *c, const wr_contact_options *o, const void *of, int first) {
+#define ARGUMENT_OF(member) (first + A_case_##member - A_case_normal)
+    if (c->normal != o->normal) return bad(ARGUMENT_OF(normal), R_DIFFERS);
+    if (c->normal_family != find(0, o->normal)->family) return bad(ARGUMENT_OF(normal_family), R_FAMILY);
+    TRY(check_members(of, first, ARGUMENT_OF(conformal)));
+    if (c->tangential_family != find(1, c->tangential)->family) return bad(ARGUMENT_OF(tangential_family), R_FAMILY);
+    return c->nu != o->poisson_ratio ? bad(ARGUMENT_OF(nu), R_DIFFERS) : 0;
+#undef ARGUMENT_OF
 }
 
 static int check_case(const wr_case *c, const wr_contact_options *o) {
     TRY(aligned(c, A_problem));
-    TRY(check_surface(c, o));
-    if (c->conformal && !find(1, c->tangential)->fields) return bad(A_c_tangential, R_PLANE);
-    TRY(among(c->load_kind, WR_BY_LOAD, WR_BY_APPROACH, A_c_load_kind));
-    TRY(within(c->amount, c->load_kind == WR_BY_LOAD ? 0.0 : -INFINITY, INFINITY, A_c_amount));
-    TRY(within(c->vx, -WR_LARGEST_CREEPAGE, WR_LARGEST_CREEPAGE, A_c_vx));
-    TRY(within(c->vy, -WR_LARGEST_CREEPAGE, WR_LARGEST_CREEPAGE, A_c_vy));
-    TRY(within(c->phi, -WR_LARGEST_CREEPAGE, WR_LARGEST_CREEPAGE, A_c_phi));
-    return within(c->rolling, -1e3, 1e3, A_c_rolling);
+    TRY(check_surface(c, o, c, A_case_normal));
+    if (c->conformal && !find(1, c->tangential)->fields) return bad(A_case_tangential, R_PLANE);
+    TRY(check_members(c, A_case_load_kind, A_case_rolling));
+    return c->load_kind == WR_BY_LOAD && c->amount < 0.0 ? bad(A_case_amount, R_NEGATIVE) : 0;
 }
 
-static int check_damage(const wr_damage_parameters *p) {
-    TRY(aligned(p, A_parameters));
-    TRY(within(p->speed, 0.0, INFINITY, A_p_speed));
-    TRY(above(p->wheel_radius, A_p_radius));
-    TRY(above(p->hardness, A_p_hardness));
-    TRY(above(p->shear_yield, A_p_yield));
-    TRY(within(p->rail_wear, 0.0, 1e3, A_p_rail_wear));
-    TRY(among(p->with_spin, 0, 1, A_p_spin));
-    TRY(among(p->wear_law, WR_WEAR_ARCHARD, WR_WEAR_PEARCE_SHERRATT, A_p_law));
+/* `of` is the struct that has the parameters. */
+static int check_damage(const wr_damage_parameters *p, const void *of, int first) {
+    TRY(check_members(of, first, first + A_parameters_wear_law - A_parameters_speed));
     const double *all[] = {p->pearce_sherratt, p->burstow, p->usfd, p->archard};
     const size_t n[] = {COUNT(p->pearce_sherratt), COUNT(p->burstow), COUNT(p->usfd), COUNT(p->archard)};
     for (size_t j = 0; j < 4; j++)
@@ -465,7 +360,7 @@ int wr_contact_size(const wr_contact_options *o, size_t *bytes) {
     double sizes[N_SIZES];
     TRY(check_contact_options(o));
     TRY(aligned(bytes, A_bytes));
-    if (o->conformal && !find(1, o->tangential)->fields) return bad(A_tangential, R_PLANE);
+    if (o->conformal && !find(1, o->tangential)->fields) return bad(A_options_tangential, R_PLANE);
     set_sizes(sizes, o);
     *bytes = 8 * (size_t)(head_numbers() + (o->n_samples + 7) / 8 * 8 + CALL(contact_size, sizes));
     return 0;
@@ -491,8 +386,8 @@ int wr_contact_init(const wr_contact_options *o, void *memory, size_t bytes) {
 
 int wr_contact_case(const wr_contact_options *o, double mu, double speed, wr_case *c) {
     TRY(check_contact_options(o));
-    TRY(within(mu, 0.0, 1e6, A_mu));
-    TRY(within(speed, 0.0, INFINITY, A_speed));
+    TRY(check_number(mu, A_mu));
+    TRY(check_number(speed, A_speed));
     TRY(aligned(c, A_problem));
     memset(c, 0, sizeof *c);
     c->normal = o->normal, c->normal_family = find(0, o->normal)->family;
@@ -543,9 +438,9 @@ int wr_contact_solve_force(void *memory, const wr_separation *s, int64_t which, 
     TRY(check_memory(memory, CONTACT));
     Head *head = memory;
     TRY(check_separation(s, head->patch.n_samples));
-    TRY(among(which, WR_FORCE_X, WR_FORCE_X + WR_FORCE_Y, A_which));
-    if (which & WR_FORCE_X) TRY(within(Fx, -INFINITY, INFINITY, A_force_x));
-    if (which & WR_FORCE_Y) TRY(within(Fy, -INFINITY, INFINITY, A_force_y));
+    TRY(check_whole(which, A_which_forces));
+    if (which & WR_FORCE_X) TRY(check_number(Fx, A_force_x));
+    if (which & WR_FORCE_Y) TRY(check_number(Fy, A_force_y));
     TRY(check_case(c, &head->patch));
     TRY(aligned(result, A_result));
     wr_result results[2];
@@ -607,7 +502,8 @@ int wr_contact_damage(void *memory, const wr_damage_parameters *parameters, wr_d
     TRY(check_memory(memory, CONTACT));
     Head *head = memory;
     TRY(check_answer(head));
-    TRY(check_damage(parameters));
+    TRY(aligned(parameters, A_parameters));
+    TRY(check_damage(parameters, parameters, A_parameters_speed));
     TRY(aligned(damage, A_damage));
     CALL(contact_damage, head->sizes, work_of(memory), head->n_strips, &head->problem, &head->result, (void *)parameters,
          damage);
@@ -617,8 +513,7 @@ int wr_contact_damage(void *memory, const wr_damage_parameters *parameters, wr_d
 static int check_load(const wr_surface_load *l) {
     TRY(aligned(l, A_surface_load));
     if (l->size != (int64_t)sizeof *l) return bad(A_surface_load, R_STRUCT);
-    TRY(among(l->nx, 4, 1000, A_nx));
-    TRY(among(l->ny, 4, 1000, A_ny));
+    TRY(check_members(l, A_load_nx, A_load_ny));
     TRY(aligned(l->x, A_load_x));
     TRY(aligned(l->y, A_load_y));
     TRY(aligned(l->p, A_load_p));
@@ -663,8 +558,8 @@ int wr_stress(const wr_surface_load *l, int64_t body, double poisson_ratio, int6
     TRY(finite_all(l->p, l->nx * l->ny, A_load_p));
     TRY(finite_all(l->qx, l->nx * l->ny, A_load_qx));
     TRY(finite_all(l->qy, l->nx * l->ny, A_load_qy));
-    TRY(among(body, WR_BODY_RAIL, WR_BODY_WHEEL, A_body));
-    TRY(within(poisson_ratio, 0.0, 0.5, A_poisson));
+    TRY(check_whole(body, A_body));
+    TRY(check_number(poisson_ratio, A_poisson));
     TRY(among(n, 0, INT64_MAX / 64, A_n));
     TRY(aligned(x, A_x));
     TRY(aligned(y, A_y));
@@ -672,7 +567,7 @@ int wr_stress(const wr_surface_load *l, int64_t body, double poisson_ratio, int6
     TRY(aligned(stress, A_stress));
     TRY(finite_all(x, n, A_x));
     TRY(finite_all(y, n, A_y));
-    for (int64_t i = 0; i < n; i++) TRY(within(z[i], 0.0, INFINITY, A_z));
+    for (int64_t i = 0; i < n; i++) TRY(check_number(z[i], A_z));
     double sizes[N_SIZES] = {0}, one[18];
     int wheel = body == WR_BODY_WHEEL;
     sizes[WIDE] = is_wide();
@@ -708,3 +603,4 @@ int wr_contact_batch(void *memory, int64_t n_separations, const wr_separation *s
 }
 
 #include "wheelrail_pair.h"
+#include "wheelrail_doubts.h"

@@ -1,6 +1,5 @@
 /* The part of wheelrail.c for a wheel on a rail.  Included there once. */
 
-#define MOST_NODES 100000
 #define MOST_NUMBERS 2000000
 
 /* Call the entry for profiles or for surfaces. */
@@ -16,22 +15,9 @@ static int check_pair(const void *memory) {
 static int check_pair_options(const wr_pair_options *o) {
     TRY(aligned(o, A_options));
     if (o->size != (int64_t)sizeof *o) return bad(A_options, R_STRUCT);
-    TRY(check_contact_options(&o->patch));
-    TRY(among(o->patch.n_samples, 5, 2001, A_n_samples));
-    if (o->side != 1 && o->side != -1) return bad(A_side, R_RANGE);
-    TRY(among(o->most_patches, 1, WR_MAX_PATCHES, A_most_patches));
-    TRY(within(o->wheel_radius, 0.05, 2.0, A_wheel_radius));
-    TRY(within(o->gauge, 0.1, 3.0, A_gauge));
-    TRY(within(o->flange_back, 0.1, 3.0, A_flange_back));
-    TRY(above(o->gauge_point, A_gauge_point));
-    TRY(within(o->combine_distance, 0.0, INFINITY, A_combine_distance));
-    TRY(within(o->combine_angle, 0.0, INFINITY, A_combine_angle));
-    TRY(among(o->n_bins, 0, 100000, A_n_bins));
-    TRY(within(o->bin_start, -1e6, 1e6, A_bin_start));
-    TRY(within(o->bin_width, 1e-9, 1e6, A_bin_width));
-    TRY(within(o->reach, 0.01, 0.3, A_reach));
-    TRY(among(o->tilted, 0, 1, A_tilted));
-    return check_damage(&o->damage);
+    if (o->patch.size != (int64_t)sizeof o->patch) return bad(A_options, R_STRUCT);
+    TRY(check_members(o, A_patch_normal, A_pair_tilted));
+    return check_damage(&o->damage, o, A_damage_speed);
 }
 
 int wr_pair_default(wr_pair_options *o) {
@@ -62,8 +48,8 @@ static int64_t staging(int64_t n_wheel, int64_t n_rail) {
 int wr_pair_size(const wr_pair_options *o, int64_t n_wheel, int64_t n_rail, size_t *bytes) {
     double sizes[N_SIZES];
     TRY(check_pair_options(o));
-    TRY(among(n_wheel, 4, MOST_NODES, A_n_wheel));
-    TRY(among(n_rail, 4, MOST_NODES, A_n_rail));
+    TRY(check_whole(n_wheel, A_n_wheel));
+    TRY(check_whole(n_rail, A_n_rail));
     TRY(aligned(bytes, A_bytes));
     set_sizes(sizes, &o->patch);
     sizes[4] = sizes[7] = (double)n_wheel;
@@ -227,7 +213,7 @@ int wr_pair_init(const wr_pair_options *options, const wr_profile *wheel, const 
     head->at_bins = CALL(pair_bins, head->sizes);
     if (CALL(pair_init, head->sizes, work_of(memory), wheel_rows, rail_rows, motion, &problem, &o.damage, o.gauge,
              o.gauge_point, o.bin_start, o.bin_width))
-        return bad(A_gauge_point, R_GAUGE);
+        return bad(A_pair_gauge_point, R_GAUGE);
     finish(head);
     return 0;
 }
@@ -247,7 +233,7 @@ static int set_surface_sizes(const wr_pair_options *o, const wr_surface *wheel, 
     static const int of_wheel[] = {A_wheel, A_wheel_n, A_wheel_numbers};
     static const int of_rail[] = {A_rail, A_rail_n, A_rail_numbers};
     TRY(check_pair_options(o));
-    if (o->n_bins) return bad(A_n_bins, R_NO_BINS);
+    if (o->n_bins) return bad(A_pair_n_bins, R_NO_BINS);
     TRY(check_surface_numbers(wheel, of_wheel));
     TRY(check_surface_numbers(rail, of_rail));
     set_sizes(sizes, &o->patch);
@@ -286,7 +272,7 @@ int wr_pair_init_surfaces(const wr_pair_options *options, const wr_surface *whee
 
 int wr_pair_input_default(const wr_pair_options *o, double mu, double speed, double load, wr_pair_input *input) {
     TRY(check_pair_options(o));
-    TRY(within(load, 0.0, INFINITY, A_load));
+    TRY(check_number(load, A_load));
     TRY(aligned(input, A_input));
     wr_case surface;
     TRY(wr_contact_case(&o->patch, mu, speed, &surface));
@@ -297,40 +283,21 @@ int wr_pair_input_default(const wr_pair_options *o, double mu, double speed, dou
     return 0;
 }
 
-static int check_motion(const wr_motion *m) {
-    const double *all = (const double *)m;
-    TRY(finite_all(all, (int64_t)(sizeof *m / sizeof *all), A_motion));
-    int sane = fabs(m->roll) <= WR_LARGEST_ANGLE && fabs(m->yaw) <= WR_LARGEST_ANGLE;
-    return sane && fabs(m->rail_roll) <= WR_LARGEST_RAIL_ROLL ? 0 : bad(A_motion, R_RANGE);
-}
-
 static int check_input(const wr_pair_input *in, const wr_contact_options *o) {
     TRY(aligned(in, A_input));
     if (in->size != (int64_t)sizeof *in) return bad(A_input, R_STRUCT);
-    TRY(among(in->height, WR_HEIGHT_GIVEN, WR_HEIGHT_VERTICAL, A_height));
-    TRY(within(in->amount, 0.0, in->height == WR_HEIGHT_PENETRATION ? 2e-3 : INFINITY, A_amount));
-    TRY(check_motion(&in->motion));
-    TRY(check_surface(&in->surface, o));
-    TRY(within(in->rail.ky, 0.0, INFINITY, A_springs));
-    TRY(within(in->rail.kz, 0.0, INFINITY, A_springs));
-    TRY(within(in->rail.preload_y, -INFINITY, INFINITY, A_springs));
-    TRY(within(in->rail.preload_z, -INFINITY, INFINITY, A_springs));
-    const wr_wheel_offset *d = &in->offset;
-    TRY(finite_all((const double *)d, (int64_t)(sizeof *d / sizeof(double)), A_offset));
-    if (fabs(d->roll) > WR_LARGEST_ANGLE || fabs(d->pitch) > WR_LARGEST_ANGLE || fabs(d->yaw) > WR_LARGEST_ANGLE)
-        return bad(A_offset, R_RANGE);
-    TRY(within(in->station, -1e7, 1e7, A_station));
-    TRY(within(in->rotation, -1e8, 1e8, A_rotation));
-    return within(in->distance, 0.0, INFINITY, A_distance);
+    TRY(check_surface(&in->surface, o, in, A_surface_normal));
+    TRY(check_members(in, A_input_height, A_springs_preload_z));
+    return in->height == WR_HEIGHT_PENETRATION && in->amount > LARGEST_PENETRATION ? bad(A_input_amount, R_PENETRATION) : 0;
 }
 
 static int failure(int64_t code, int64_t height) {
     switch (code) {
     case -1: return bad(A_motion, R_NO_OVERLAP);
-    case -2: return bad(A_amount, R_NOT_SETTLED);
-    case -3: return bad(height == WR_HEIGHT_GIVEN ? A_motion : A_amount, R_TOO_DEEP);
+    case -2: return bad(A_input_amount, R_NOT_SETTLED);
+    case -3: return bad(height == WR_HEIGHT_GIVEN ? A_motion : A_input_amount, R_TOO_DEEP);
     case -4: return bad(A_offset, R_TURNED);
-    default: return bad(A_distance, R_ENDLESS);
+    default: return bad(A_input_distance, R_ENDLESS);
     }
 }
 
@@ -342,7 +309,7 @@ static int solve_pair(void *memory, int cold, const wr_pair_input *in, wr_pair_a
     wr_motion motion = in->motion;
     wr_wheel_offset offset = in->offset;
     wr_pair_answer made = {.size = sizeof made};
-    if (head->kind == SURFACES && motion.vx < 0.0) return bad(A_motion, R_RANGE);
+    if (head->kind == SURFACES && motion.vx < 0.0) return bad(A_motion_vx, R_BACKWARDS);
     surface.speed = fabs(motion.vx);
     rail.dy = rail.dz = 0.0;
     rail.balanced = 0;

@@ -50,6 +50,12 @@ WR_API const char *wr_version(void);
 WR_API const char *wr_message(int code);
 /* Name of the argument that an error is about, for example "case.mu"; "" for codes that are no error. */
 WR_API const char *wr_argument(int code);
+/* Write one line about a code into the caller's text of this many bytes; 200 are enough.  An error about a number names it, its
+ * value and its range: "input.motion.yaw = 0.2 is outside its allowed range [-0.1, 0.1]".
+ * given: the struct that begins the name of the argument, as the refused function got it: wr_contact_options or wr_pair_options
+ * for "options", wr_case for "case", wr_pair_input for "input", wr_damage_parameters for "parameters", wr_surface_load for
+ * "load".  NULL: the line has no value. */
+WR_API int wr_explain(int code, const void *given, char *text, size_t bytes);
 
 /* Names of methods.  kind: "normal" or "tangential".  The name is NULL and the number -1 for an unknown method. */
 WR_API const char *wr_method_name(const char *kind, int number);
@@ -112,6 +118,11 @@ WR_API int wr_contact_forget(void *memory);
  * d(vx, vy, phi, amount, mu) as jacobian[6][5], row by row; to the side of larger values where a force has a kink.
  * `mu` scales the whole friction law: kinetic changes in the same ratio. */
 WR_API int wr_contact_derivatives(void *memory, const wr_separation *separation, const wr_case *problem, double *jacobian);
+/* Values that are allowed but that no wheel on a rail has, as from a wrong unit or sign: a sum of WR_DOUBT_..., 0 for none.
+ * Arguments are not checked otherwise. */
+WR_API int wr_contact_doubts(const wr_separation *separation, const wr_case *problem);
+/* What is usual, for the first of these doubts; "" for none.  for (; doubts > 0; doubts &= doubts - 1) puts(wr_doubt(doubts)); */
+WR_API const char *wr_doubt(int doubts);
 /* Fields of the last answer. */
 WR_API int wr_contact_fields(const void *memory, wr_fields *fields);
 /* Pressure and traction on equal rectangles, in arrays of the caller.  Element (i, j) is [i * nx + j]. */
@@ -213,6 +224,8 @@ WR_API int wr_pair_init_surfaces(const wr_pair_options *options, const wr_surfac
 /* Steady rolling of a centred wheelset at this speed [m/s] under a load [N] that the normal forces carry. */
 WR_API int wr_pair_input_default(const wr_pair_options *options, double mu, double speed, double load,
                                  wr_pair_input *input);
+/* As wr_contact_doubts, of pose, speed, spin, load, friction and material.  A spin that does not belong to the speed is one. */
+WR_API int wr_pair_doubts(const wr_pair_options *options, const wr_pair_input *input);
 WR_API int wr_pair_solve(void *memory, const wr_pair_input *input, wr_pair_answer *answer);
 /* Also books the damage of the last answer, once.  Call wr_pair_patch before it. */
 WR_API int wr_pair_accept(void *memory);

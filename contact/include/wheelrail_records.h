@@ -417,4 +417,43 @@ _Static_assert(sizeof(wr_damage_parameters) == 264, "wr_damage_parameters");
     X(warm_range, 400.0) \
     X(heating, 2.1226040109865864e-05)
 
+/* Values that no wheel on a rail has. */
+enum {
+    WR_DOUBT_LOAD = 1,
+    WR_DOUBT_APPROACH = 2,
+    WR_DOUBT_CREEPAGE_LONGITUDINAL = 4,
+    WR_DOUBT_CREEPAGE_LATERAL = 8,
+    WR_DOUBT_CREEPAGE_SPIN = 16,
+    WR_DOUBT_FRICTION = 32,
+    WR_DOUBT_SPEED = 64,
+    WR_DOUBT_A = 128,
+    WR_DOUBT_EXTENT_OF_Y = 256,
+    WR_DOUBT_SHEAR_MODULUS = 512,
+    WR_DOUBT_PRESSURE_LIMIT = 1024,
+    WR_DOUBT_POSE_Y = 2048,
+    WR_DOUBT_POSE_ROLL = 4096,
+    WR_DOUBT_POSE_YAW = 8192,
+    WR_DOUBT_SLIP = 16384,
+    WR_DOUBT_WHEEL_LOAD = 32768,
+};
+
+/* X(name, its text, largest and least usual magnitude, what is usual) */
+#define WR_DOUBTS(X) \
+    X(LOAD, "load", 5000000.0, 200.0, "a wheel carries 20 to 150 kN; the unit is N; is it in kN?") \
+    X(APPROACH, "approach", 0.005, 0.0, "a wheel and a rail approach by about 1e-4 m; the unit is m") \
+    X(CREEPAGE_LONGITUDINAL, "creepage.longitudinal", 0.1, 0.0, "a rolling wheel has less than 0.02 (20 per mille); is it in per mille?") \
+    X(CREEPAGE_LATERAL, "creepage.lateral", 0.1, 0.0, "a rolling wheel has less than 0.02 (20 per mille); is it in per mille?") \
+    X(CREEPAGE_SPIN, "creepage.spin", 20.0, 0.0, "a flange has about 2; the unit is 1/m") \
+    X(FRICTION, "friction", 1.0, 0.0, "steel on steel has 0.05 to 0.6") \
+    X(SPEED, "speed", 170.0, 0.0, "the fastest train ran 160 m/s; is it in km/h?") \
+    X(A, "A", 200.0, 0.02, "a wheel has 1/(2 radius), 1.1 for a radius of 0.46 m; the unit is 1/m") \
+    X(EXTENT_OF_Y, "extent of y", 1.0, 0.0, "a wheel or a rail's head is less than 0.2 m wide; the unit is m") \
+    X(SHEAR_MODULUS, "shear_modulus", 10000000000000.0, 10000000.0, "steel has 8.2e10; the unit is Pa") \
+    X(PRESSURE_LIMIT, "pressure_limit", INFINITY, 10000000.0, "rail steel has about 1.5e9; the unit is Pa") \
+    X(POSE_Y, "pose.y", 0.015, 0.0, "a flange touches at about 0.007 m; the unit is m") \
+    X(POSE_ROLL, "pose.roll", 0.05, 0.0, "a wheelset has less than 0.03 rad; the unit is rad") \
+    X(POSE_YAW, "pose.yaw", 0.05, 0.0, "a wheelset has less than 0.03 rad; the unit is rad") \
+    X(SLIP, "slip", 0.45, 0.0, "a rolling wheel has less than 0.02; spin is negative when rolling forward, about -forward/radius") \
+    X(WHEEL_LOAD, "wheel load", 5000000.0, 1000.0, "a wheel carries 20 to 150 kN; the unit is N")
+
 #endif

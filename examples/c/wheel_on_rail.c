@@ -29,7 +29,14 @@ int main(void) {
     TRY(wr_pair_init(&options, &wheel, &rail, memory, bytes))
     TRY(wr_pair_input_default(&options, 0.3, 20.0, 80e3, &input)) /* mu, speed [m/s], load [N] */
     input.motion.y = 0.002, input.motion.yaw = 0.003;             /* pose of the wheelset [m], [rad] */
-    TRY(wr_pair_solve(memory, &input, &answer))
+    for (int doubts = wr_pair_doubts(&options, &input); doubts > 0; doubts &= doubts - 1) /* a wrong unit or sign? */
+        fprintf(stderr, "%s\n", wr_doubt(doubts));
+    if ((code = wr_pair_solve(memory, &input, &answer)) < 0) { /* such as "input.motion.yaw = 0.2 is outside its ..." */
+        char line[200];
+        wr_explain(code, &input, line, sizeof line);
+        fprintf(stderr, "%s\n", line);
+        return 1;
+    }
     printf("%s: Fx %.3f Fy %.3f Fz %.3f N, largest pressure %.1f MPa\n", wr_message(code), answer.total.Fx,
            answer.total.Fy, answer.total.Fz, 1e-6 * answer.total.pmax);
     TRY(wr_pair_accept(memory)) /* the next step starts from here */

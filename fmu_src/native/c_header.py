@@ -22,6 +22,7 @@ from contact.kernels.normal.strip_halfspace import MAX_ITERATIONS
 from contact.kernels.records import MOTION
 from contact.kernels.rows import Bin, Field, Strip
 from contact.material import STEEL
+from contact.plausibility import USUAL
 from contact.registry import DEFAULT_NORMAL, DEFAULT_TANGENTIAL, methods
 
 PATH = Path(__file__).parents[2] / "contact" / "include" / "wheelrail_records.h"
@@ -139,6 +140,20 @@ def _surface_defaults() -> str:
     return f"/* X(member of wr_case, value without a friction law) */\n#define WR_SURFACE_DEFAULTS(X) \\\n{rows}"
 
 
+def _doubts() -> str:
+    """Return the rules of `contact.plausibility` as bits, with their limits and texts."""
+    names = {name: re.sub(r"\W", "_", name).upper() for name in USUAL}
+    values = "\n".join(f"    WR_DOUBT_{c_name} = {1 << k}," for k, c_name in enumerate(names.values()))
+    rows = " \\\n".join(
+        f'    X({names[name]}, "{name}", {usual.largest!r}, {usual.least!r}, "{usual.hint}")'
+        for name, usual in USUAL.items()
+    )
+    return (
+        f"/* Values that no wheel on a rail has. */\nenum {{\n{values}\n}};\n\n"
+        f"/* X(name, its text, largest and least usual magnitude, what is usual) */\n#define WR_DOUBTS(X) \\\n{rows}"
+    )
+
+
 def header() -> str:
     """Return the text of the header."""
     enumerations = "\n\n".join(_enumeration(kind, prefix) for kind, prefix in _ENUMERATIONS.items())
@@ -160,6 +175,8 @@ def header() -> str:
 {_damage_defaults()}
 
 {_surface_defaults()}
+
+{_doubts()}
 
 #endif
 """

@@ -86,6 +86,12 @@ static void attack_contact(void) {
         memcpy((char *)&forged + 8 * i, &far, 8); /* as a double this is NaN too */
         if (wr_contact_solve(memory, &s, &forged, &r) >= 0) printf("case member %zu: far accepted\n", i), failures++;
     }
+    REFUSED(wr_contact_doubts(NULL, &c), "separation");
+    REFUSED(wr_contact_doubts(&s, NULL), "case");
+    WITH(s.n, 0, wr_contact_doubts(&s, &c), "separation.n");
+    WITH(s.y, NULL, wr_contact_doubts(&s, &c), "separation.y");
+    WITH(s.A, NULL, wr_contact_doubts(&s, &c), "separation.A");
+    if (wr_contact_doubts(&s, &c)) printf("a usual case is doubted\n"), failures++;
     WITH(c.amount, -1.0, wr_contact_solve(memory, &s, &c, &r), "case.amount");
     WITH(c.vx, 2e6, wr_contact_solve(memory, &s, &c, &r), "case.vx");
     WITH(c.nu, 0.3, wr_contact_solve(memory, &s, &c, &r), "case.nu");
@@ -231,15 +237,29 @@ static void attack_pair(void) {
     WITH(in.size, 3, wr_pair_solve(memory, &in, &a), "input");
     WITH(in.height, 4, wr_pair_solve(memory, &in, &a), "input.height");
     WITH(in.amount, NAN, wr_pair_solve(memory, &in, &a), "input.amount");
-    WITH(in.motion.yaw, 0.2, wr_pair_solve(memory, &in, &a), "input.motion");
-    WITH(in.motion.y, NAN, wr_pair_solve(memory, &in, &a), "input.motion");
+    WITH(in.motion.yaw, 0.2, wr_pair_solve(memory, &in, &a), "input.motion.yaw");
+    WITH(in.motion.y, NAN, wr_pair_solve(memory, &in, &a), "input.motion.y");
     WITH(in.motion.y, 1.0, wr_pair_solve(memory, &in, &a), "input.motion");
-    WITH(in.rail.ky, -1.0, wr_pair_solve(memory, &in, &a), "input.rail");
-    WITH(in.offset.x, INFINITY, wr_pair_solve(memory, &in, &a), "input.offset");
+    WITH(in.rail.ky, -1.0, wr_pair_solve(memory, &in, &a), "input.rail.ky");
+    WITH(in.offset.x, INFINITY, wr_pair_solve(memory, &in, &a), "input.offset.x");
     WITH(in.station, NAN, wr_pair_solve(memory, &in, &a), "input.station");
     WITH(in.rotation, 1e9, wr_pair_solve(memory, &in, &a), "input.rotation");
     WITH(in.distance, -1.0, wr_pair_solve(memory, &in, &a), "input.distance");
-    WITH(in.surface.mu, NAN, wr_pair_solve(memory, &in, &a), "case.mu");
+    WITH(in.surface.mu, NAN, wr_pair_solve(memory, &in, &a), "input.surface.mu");
+    REFUSED(wr_pair_doubts(NULL, &in), "options");
+    REFUSED(wr_pair_doubts(&o, NULL), "input");
+    WITH(in.size, 3, wr_pair_doubts(&o, &in), "input");
+    WITH(o.wheel_radius, NAN, wr_pair_doubts(&o, &in), "options.wheel_radius");
+    /* every number as NaN, which is no doubt and does no harm */
+    for (size_t i = 1; i < sizeof in / 8; i++) {
+        wr_pair_input forged = in;
+        double nan = NAN;
+        memcpy((char *)&forged + 8 * i, &nan, 8);
+        if (wr_pair_doubts(&o, &forged) < 0) failures++;
+    }
+    in.motion.vx = 40.0; /* its spin belongs to 20 m/s */
+    if (wr_pair_doubts(&o, &in) != WR_DOUBT_SLIP) printf("a spin is not doubted\n"), failures++;
+    in.motion.vx = 20.0;
     FINE(wr_pair_solve(memory, &in, &a));
     REFUSED(wr_pair_patch(memory, 4, &r, NULL), "k");
     REFUSED(wr_pair_patch(memory, -1, &r, NULL), "k");
@@ -271,8 +291,19 @@ int main(void) {
     }
     attack_contact();
     attack_pair();
-    for (int code = -20000; code < 100; code++)
-        if (wr_message(code) == NULL || wr_argument(code) == NULL) failures++;
+    char line[200];
+    wr_contact_options o;
+    FINE(wr_contact_default(&o));
+    for (int code = -30000; code < 100; code++) {
+        if (wr_message(code) == NULL || wr_argument(code) == NULL || wr_doubt(code) == NULL) failures++;
+        FINE(wr_explain(code, NULL, line, sizeof line));
+        if (strncmp(wr_argument(code), "options.", 8) == 0) FINE(wr_explain(code, &o, line, sizeof line));
+    }
+    REFUSED(wr_explain(-203, NULL, NULL, 3), "text");
+    REFUSED(wr_explain(-203, NULL, line, 0), "bytes");
+    REFUSED(wr_explain(-203, NULL, line, 3), "bytes");
+    REFUSED(wr_explain(-203, (char *)&o + 1, line, sizeof line), "given");
+    if (strcmp(wr_doubt(0), "") || strcmp(wr_doubt(-1), "") || strcmp(wr_doubt(INT32_MIN), "")) failures++;
     if (wr_method_name("normal", 999) != NULL || wr_method_number(NULL, NULL) != -1) failures++;
     printf("%d failures\n", failures);
     return failures != 0;

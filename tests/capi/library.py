@@ -49,7 +49,8 @@ def pointer(array):
 class Library:
     def __init__(self, folder):
         self.c = ctypes.CDLL(str(folder / "libwheelrail.so"))
-        self.c.wr_message.restype = self.c.wr_argument.restype = ctypes.c_char_p
+        for name in ("wr_message", "wr_argument", "wr_doubt"):
+            getattr(self.c, name).restype = ctypes.c_char_p
 
     def call(self, name, *arguments):
         """Call a function; arrays are passed by address. Return its code."""

@@ -1,0 +1,135 @@
+"""Values that no wheel on a rail has are doubted in C by the rules of Python."""
+
+import warnings
+from collections import Counter
+
+import numpy as np
+import pytest
+
+import contact
+from contact.errors import PlausibilityWarning, silent
+from contact.geometry import profile
+from contact.geometry.wheelset import Pair as Profiles
+from contact.geometry.wheelset import Pose, Velocity
+from contact.plausibility import USUAL, doubt_case, doubt_value
+from tests.capi.library import Library, Pair, Patch
+
+SIZES = 10.0 ** np.arange(-4.0, 5.0)  # factors on usual values
+
+
+@pytest.fixture(scope="module")
+def library(built):
+    return Library(built)
+
+
+def texts(library, doubts):
+    """Return the texts of all doubts."""
+    found = []
+    assert doubts >= 0
+    while doubts:
+        found.append(library.c.wr_doubt(doubts).decode())
+        doubts &= doubts - 1
+    return found
+
+
+def hints(library, doubts):
+    """Return what is usual for each of the doubts."""
+    return Counter(text.split(": ", 1)[1] for text in texts(library, doubts))
+
+
+def of_python(function):
+    """Return what is usual for each of the warnings of a function."""
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter("always")
+        function()
+    said = [str(each.message) for each in caught if each.category is PlausibilityWarning]
+    return Counter(
+        next(u.hint for u in sorted(USUAL.values(), key=lambda u: -len(u.hint)) if s.endswith(u.hint)) for s in said
+    )
+
+
+def test_every_rule_has_a_bit_and_its_text(library):
+    assert texts(library, 2 ** len(USUAL) - 1) == [f"{name}: {usual.hint}" for name, usual in USUAL.items()]
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_a_patch_is_doubted_as_in_python(library, seed):
+    rng, patch, fired = np.random.default_rng(seed), Patch(library), Counter()
+    case = patch.case
+    for _ in range(100):
+        factor = rng.choice(SIZES, 12) * rng.uniform(0.5, 2.0, 12) * rng.choice((0.0, 1.0, 1.0, 1.0), 12)
+        creepage = 1e-3 * factor[0] * rng.choice((-1, 1)), 1e-3 * factor[1], 0.2 * factor[2]
+        by_load = rng.random() < 0.5
+        load, approach = (80e3 * factor[3], None) if by_load else (None, 1e-4 * factor[3])
+        friction, speed, modulus, limit = (
+            0.3 * factor[4],
+            20.0 * factor[5],
+            8.2e10 * factor[6] or 8.2e10,
+            1e9 * factor[7],
+        )
+        y = np.linspace(-0.5, 0.5, 101) * 0.02 * (factor[8] or 1.0)
+        A = 1.1 * (factor[9] or 1.0)
+
+        def doubt(values=(load, approach, creepage, friction, speed), y=y, A=A, modulus=modulus, limit=limit):
+            doubt_case(*values)
+            contact.Separation(y, y**2, A)
+            contact.Material(modulus, 0.28)
+            doubt_value("pressure_limit", limit)
+
+        with silent():
+            separation = patch.separation(held := contact.Separation(y, y**2, A))
+        case["load_kind"], case["amount"] = (0, load) if by_load else (1, approach)
+        case["vx"], case["vy"], case["phi"] = creepage
+        case["mu"], case["speed"], case["G"], case["pressure_limit"] = friction, speed, modulus, limit
+        found = hints(library, library.call("wr_contact_doubts", separation, case))
+        assert found == of_python(doubt), held
+        fired += found
+    assert len(fired) > 7
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_a_pair_is_doubted_as_in_python(library, seed):
+    rng, fired = np.random.default_rng(seed), Counter()
+    pair = Pair(library, wheel := profile.s1002(), rail := profile.rail_60e1())
+    profiles, motion = Profiles(wheel, rail), pair.input["motion"]
+    for _ in range(100):
+        y, roll, yaw = (rng.choice((0.0, 0.5, 2.0), 3) * (0.015, 0.05, 0.05) * rng.choice((-1, 1), 3)).tolist()
+        vx, spin = (
+            float(rng.choice((-20.0, 0.0, 20.0, 40.0, 144.0, 200.0))),
+            float(rng.choice((-43.5, 43.5, -87.0, -313.0))),
+        )
+        height, amount = int(rng.choice((0, 2, 3))), float(rng.choice((0.0, 80.0, 80e3, 8e7)))
+        friction = float(rng.choice((0.3, 35.0)))
+        motion["y"], motion["roll"], motion["yaw"], motion["vx"], motion["spin"] = y, roll, yaw, vx, spin
+        pair.input["height"], pair.input["amount"], pair.input["surface"]["mu"] = height, amount, friction
+
+        def doubt(pose=(y, 0.0, roll, yaw), velocity=(vx, spin), load=amount if height else None, friction=friction):
+            profiles._doubted = False  # it warns once
+            profiles.doubt(Pose(*pose), Velocity(velocity[0], spin=velocity[1]), load)
+            doubt_value("friction", friction)
+
+        found = hints(library, library.call("wr_pair_doubts", pair.options, pair.input))
+        assert found == of_python(doubt)
+        fired += found
+    assert len(fired) > 5
+
+
+@pytest.mark.parametrize(
+    ("changed", "said"),
+    [
+        ({}, []),
+        ({"vx": 40.0}, ["slip"]),
+        ({"spin": 20.0 / 0.46}, ["slip"]),
+        ({"yaw": 0.1}, ["pose.yaw"]),
+        ({"y": 5.0}, ["pose.y"]),
+        ({"mu": 35.0}, ["friction"]),
+        ({"amount": 80.0}, ["wheel load"]),
+    ],
+)
+def test_usual_mistakes_are_doubted(library, changed, said):
+    pair = Pair(library, profile.s1002(), profile.rail_60e1())
+    for name, value in changed.items():
+        of = next(of for of in (pair.input, pair.input["motion"], pair.input["surface"]) if name in of.dtype.names)
+        of[name] = value
+    found = texts(library, library.call("wr_pair_doubts", pair.options, pair.input))
+    assert [text.split(": ")[0] for text in found] == said
