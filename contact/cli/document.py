@@ -19,7 +19,8 @@ from contact.units import UNITS
 #: Units of names that mean another thing in some commands: the rotation of a wheel.
 _ROTATING = {"spin": "rad/s", "creepage.spin": "1/m"}
 _OF_COMMAND = dict.fromkeys(("rail", "roller", "in_time", "along"), _ROTATING) | {
-    "curving": {"spin": "rad/s", "lateral": "N"}
+    "curving": {"spin": "rad/s", "lateral": "N"},
+    "demo": {"lateral": "m"},
 }
 
 

@@ -83,7 +83,7 @@ def parameter_setter(table: Table) -> Callable[..., Any]:
         motion.combine_distance = v[at.patches_combine_distance]
         motion.most_patches = int(v[at.patches_max])
         motion.mirror = 1.0 if v[at.side] == _RIGHT else -1.0
-        motion.origin_y, motion.origin_z = origin_y, origin_z
+        motion.origin_y, motion.origin_z, motion.slowest = origin_y, origin_z, SLOWEST
         read_material(v, rows, bench.case)
         choose(int(v[at.method_normal]), int(v[at.method_tangential]), bench.case[0])
         bench.search.case[0].G, bench.search.case[0].nu = bench.case[0].G, bench.case[0].nu

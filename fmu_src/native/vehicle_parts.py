@@ -25,7 +25,7 @@ from numba import carray
 
 from contact.core import group
 from contact.kernels.block import ahead, cube, matrix, records, vector
-from contact.kernels.records import GIVEN, MOTION
+from contact.kernels.records import GIVEN, MOTION, SLOWEST
 from .components import FARTHEST
 from .memory import compiled, integers_of
 
@@ -128,7 +128,7 @@ def fill(parts, constants, radius, origin_y, origin_z):
     for w in range(parts.motions.size):
         here = parts.motions[w]
         here.radius, here.mirror = radius, 1.0 if w % 2 == 0 else -1.0
-        here.origin_y, here.origin_z = origin_y, origin_z
+        here.origin_y, here.origin_z, here.slowest = origin_y, origin_z, SLOWEST
 
 
 @compiled

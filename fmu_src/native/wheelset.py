@@ -19,7 +19,7 @@ from contact.geometry.wheelset import TAPE_FROM_FLANGE_BACK
 from contact.kernels.block import matrix, records, vector
 from contact.kernels.geometry.prepare import facing, rail_origin, take_nodes, turn
 from contact.kernels.memory import lay_search
-from contact.kernels.records import GIVEN, MAX_PATCHES
+from contact.kernels.records import GIVEN, MAX_PATCHES, SLOWEST
 from contact.kernels.rows import N_PROFILE_ROWS
 from ..tables.wheelset import table
 from .components import OUT_OF_GAUGE
@@ -148,7 +148,7 @@ def _prepare_search(v, found, mirror, origin_y, origin_z):
     pose.tape = 0.5 * v[_AT.wheel_flange_back] + TAPE_FROM_FLANGE_BACK
     pose.combine_distance, pose.combine_angle = 1.0, math.radians(20.0)  # all lobes of a wheel share one plane
     pose.most_patches, pose.mirror = MAX_PATCHES, mirror
-    pose.origin_y, pose.origin_z = origin_y, origin_z
+    pose.origin_y, pose.origin_z, pose.slowest = origin_y, origin_z, SLOWEST
     for i in range(POINTS):
         k = i if mirror > 0.0 else POINTS - 1 - i
         found.grid[i] = mirror * (v[_AT.geometry_y0] + v[_AT.geometry_dy] * k)

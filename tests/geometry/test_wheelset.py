@@ -264,7 +264,7 @@ def test_a_fixed_grid_shows_the_same_gap(right, y):
     [
         (lambda: Pose(y=float("nan")), r"pose\.y = nan"),
         (lambda: Pose(yaw=0.5), r"pose\.yaw = 0\.5"),
-        (lambda: Velocity(-1.0), r"velocity\.forward = -1"),
+        (lambda: Velocity(float("inf")), r"velocity\.forward = inf"),
         (lambda: Velocity(1.0, spin=float("inf")), r"velocity\.spin = inf"),
         (lambda: Irregularity(roll=0.2), r"irregularity\.roll = 0\.2"),
         (lambda: Pair(RAIL, RAIL), "wheel = .* is not a profile of a wheel"),

@@ -106,7 +106,8 @@ def test_a_host_adds_friction_memory_and_contact_damping(open_pair):
     motion = {"velocity.x": np.full(n, 20.0), "velocity.spin": spin, "load.normal_force": 6e4 + 2e3 * np.arange(n)}
     motion |= {"pose.y": 2e-4 * np.arange(n), "offset.yaw": 2e-4 * np.arange(n)}
     wanted = WheelRailPair(Pair(profile.s1002(), profile.rail_60e1(1.0 / 40.0))).run(
-        motion | {"time": step * np.arange(n)},
+        {name.replace("load.normal_force", "vertical"): column for name, column in motion.items()}
+        | {"time": step * np.arange(n)},
         memory=FrictionMemory(law, 1e-3),
         damping=ContactDamping(damping, damping),
     )

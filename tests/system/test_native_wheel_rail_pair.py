@@ -19,7 +19,7 @@ WRENCH = ("force.x", "force.y", "force.z", "moment.x", "moment.y", "moment.z")
         ("pose.yaw", 2e-8),
         ("velocity.spin", 3e-6),
         ("velocity.yaw", 1e-7),
-        ("load.normal_force", 3.0),
+        ("load.normal_force", 30.0),
         ("friction.coefficient", 1e-6),
     ],
 )
