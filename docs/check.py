@@ -16,7 +16,7 @@ from urllib.parse import unquote, urlsplit
 
 ROOT = Path(__file__).parents[1]
 #: Words of the field, names and a misspelling that a test needs, which codespell reports.
-WORDS = "deriver,bu,tread,trough,cant,whe,inport,lief,distanse"
+WORDS = "shft,mater,fromm,statics,deriver,bu,tread,trough,cant,whe,inport,lief,distanse"
 TEXTS = ("*.md", "*.py", "*.toml", "*.m", "*.c", "*.h", "Makefile")
 
 
