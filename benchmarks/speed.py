@@ -13,9 +13,9 @@ from scipy.interpolate import CubicSpline
 import contact
 import reference
 from benchmarks.tables import table
-from contact import workspace
-from contact.case import cases, set_surface
 from contact.friction import Friction
+from contact.instance import workspace
+from contact.instance.case import cases, set_surface
 from contact.kernels.enumerations import LoadKind
 from contact.kernels.pipeline import solve_cases
 from contact.kernels.records import RESULT

@@ -8,15 +8,15 @@ from typing import TYPE_CHECKING, Any
 
 from contact.citation import cite
 from contact.core.library import get_include, get_library
-from contact.creepage import Creepage
 from contact.errors import ContactError
 from contact.forces import forces
 from contact.halfspace.third_body import ThirdBody
 from contact.halfspace.transient import Transient
-from contact.material import STEEL, Material
+from contact.inputs.creepage import Creepage
+from contact.inputs.material import STEEL, Material
+from contact.inputs.separation import Separation
 from contact.registry import Method, Methods, methods
-from contact.separation import Separation
-from contact.solution import Forces, Solution, Status, Strips
+from contact.results import Forces, Solution, Status, Strips
 from contact.solve import solve
 from contact.solver import THESIS, Solver
 from contact.theory.hertz import HertzContact, hertz

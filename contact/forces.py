@@ -10,23 +10,23 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from contact import workspace
 from contact.arrays import Array, require_numbers
-from contact.case import cases as prepared_cases
-from contact.case import set_surface
-from contact.creepage import LARGEST_CREEPAGE, Creepage
 from contact.errors import ContactError
 from contact.friction import LARGEST, Friction
+from contact.inputs.creepage import LARGEST_CREEPAGE, Creepage
+from contact.inputs.material import STEEL, Material
+from contact.inputs.plausibility import doubt_alike, doubt_gap, doubt_strips, doubt_values
+from contact.inputs.separation import Separation
+from contact.instance import workspace
+from contact.instance.case import cases as prepared_cases
+from contact.instance.case import set_surface
 from contact.kernels.arrays import Samples
 from contact.kernels.enumerations import LoadKind
 from contact.kernels.jacobian import COLUMNS, ROWS, solve_with_jacobian
 from contact.kernels.pipeline import solve_cases
 from contact.kernels.records import CASE, RESULT
-from contact.material import STEEL, Material
-from contact.plausibility import doubt_alike, doubt_gap, doubt_strips, doubt_values
 from contact.registry import DEFAULT_NORMAL, DEFAULT_TANGENTIAL, lookup
-from contact.separation import Separation
-from contact.solution import BEND, Forces, Jacobian
+from contact.results import BEND, Forces, Jacobian
 from contact.solver import N_ELEMENTS, N_STRIPS, require_conformal, require_resolution
 
 _CHUNK = 256

@@ -11,9 +11,9 @@ from numpy.typing import ArrayLike, NDArray
 
 from contact.arrays import require_numbers
 from contact.errors import ContactError, require_number
+from contact.inputs.material import Thermal
 from contact.kernels.friction import coefficient, over_profile
-from contact.material import Thermal
-from contact.notebook import table
+from contact.view.notebook import table
 
 #: Largest allowed coefficient [-]: beyond any application, and squares do not overflow.
 LARGEST = 1e6

@@ -8,7 +8,7 @@ from typing import Any, NamedTuple
 
 from contact.errors import ContactError, suggestion
 from contact.kernels.enumerations import Normal, NormalFamily, Tangential, TangentialFamily
-from contact.notebook import table
+from contact.view.notebook import table
 
 #: The default methods. The strip half space starts from ANALYN, and mapped FaStrip corrects FaStrip (docs/check/accuracy.md).
 DEFAULT_NORMAL, DEFAULT_TANGENTIAL = "strip_halfspace", "fastrip_mapped"

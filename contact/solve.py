@@ -9,7 +9,6 @@ from dataclasses import replace
 from typing import NamedTuple
 
 from contact.arrays import Array
-from contact.creepage import Creepage, as_creepage
 from contact.errors import ContactError, require_number, require_pair
 from contact.friction import Friction, as_friction
 from contact.given_force import Force, solve_for_force, wanted_force
@@ -21,12 +20,13 @@ from contact.halfspace.pressed import Pressed
 from contact.halfspace.solution import GridSolution
 from contact.halfspace.solve import press_gap, press_solution
 from contact.halfspace.third_body import ThirdBody
+from contact.inputs.creepage import Creepage, as_creepage
+from contact.inputs.material import STEEL, Material
+from contact.inputs.plausibility import doubt_alike, doubt_case
+from contact.inputs.separation import Separation
 from contact.kernels.normal.strip_halfspace import MAX_ITERATIONS
-from contact.material import STEEL, Material
-from contact.plausibility import doubt_alike, doubt_case
 from contact.registry import DEFAULT_NORMAL, DEFAULT_TANGENTIAL, Method, lookup
-from contact.separation import Separation
-from contact.solution import Solution
+from contact.results import Solution
 from contact.solver import (
     N_ELEMENTS,
     N_STRIPS,
@@ -37,7 +37,7 @@ from contact.solver import (
     require_trustworthy,
 )
 from contact.theory.kalker import constant_table
-from contact.trace import show, show_step
+from contact.view.trace import show, show_step
 
 #: Default number of rows and of columns of the half space's elements.
 _N_OF_HALF_SPACE = 60
@@ -135,7 +135,7 @@ def solve(
     Warns
     -----
     PlausibilityWarning
-        For a load, approach, creepage, friction or speed that no wheel has, as from a wrong unit (`contact.plausibility`).
+        For a load, approach, creepage, friction or speed that no wheel has, as from a wrong unit (`inputs.plausibility`).
 
     Examples
     --------

@@ -11,13 +11,17 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from contact import trace, workspace
-from contact.case import cases, set_surface
 from contact.core import pack
-from contact.creepage import Creepage, as_creepage
 from contact.errors import ContactError, require_integer, require_number
 from contact.friction import Friction, as_friction
 from contact.given_force import as_numbers, wanted_force
+from contact.inputs.creepage import Creepage, as_creepage
+from contact.inputs.material import STEEL, Material
+from contact.inputs.plausibility import doubt_alike, doubt_case, doubt_gap, doubt_strips
+from contact.inputs.separation import Separation
+from contact.instance import workspace
+from contact.instance.case import cases, set_surface
+from contact.instance.ownership import OwnsArrays, one_thread, within
 from contact.kernels.arrays import Cases, Integers, Results, Workspace
 from contact.kernels.enumerations import LoadKind
 from contact.kernels.given_force import solve_under_force
@@ -26,12 +30,9 @@ from contact.kernels.normal.start import MEM_IMAGE
 from contact.kernels.normal.strip_halfspace import MAX_ITERATIONS
 from contact.kernels.pipeline import solve_cases
 from contact.kernels.records import FORCE_SEARCH, RESULT
-from contact.material import STEEL, Material
-from contact.ownership import OwnsArrays, one_thread, within
-from contact.plausibility import doubt_alike, doubt_case, doubt_gap, doubt_strips
 from contact.registry import DEFAULT_NORMAL, DEFAULT_TANGENTIAL, Method, lookup
-from contact.separation import Separation
-from contact.solution import BEND, CaseForces, Jacobian, Prepared, Solution, Status
+from contact.results import BEND, CaseForces, Jacobian, Prepared, Solution, Status
+from contact.view import trace
 
 #: Default resolution. On the patches of set D the normal force is then 0.06 %, the largest pressure 0.3 % off CONTACT's.
 N_STRIPS, N_ELEMENTS = 20, 20

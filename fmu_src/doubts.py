@@ -1,6 +1,6 @@
 """Values that are allowed but that no wheel on a rail has: a message of both packagings, once for each instance and rule.
 
-The rules are those of Python (`contact.plausibility`), under the names of the variables.
+The rules are those of Python (`contact.inputs.plausibility`), under the names of the variables.
 """
 
 from __future__ import annotations
@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import NamedTuple
 
-from contact.plausibility import USUAL, Usual
+from contact.inputs.plausibility import USUAL, Usual
 from .variables import Table
 
 #: Row → rule. A wheel carries another load than a patch.

@@ -9,7 +9,7 @@ import numpy as np
 import contact
 from contact.damage.temperature import flash_temperature
 from contact.friction import Friction
-from contact.material import Thermal
+from contact.inputs.material import Thermal
 
 #: Slip [%] of the columns.
 SLIPS = (0.2, 4.0, 15.0, 25.0)

@@ -7,7 +7,7 @@ import math
 import numpy as np
 
 from contact.damage.temperature import heating
-from contact.material import STEEL, Thermal
+from contact.inputs.material import STEEL, Thermal
 
 #: Slip [%], frictional heat [W] and largest flash temperature [K]; read by an earlier session, noted in issue 35.
 PUBLISHED = (

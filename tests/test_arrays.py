@@ -185,8 +185,8 @@ def test_points_whose_shapes_do_not_broadcast_are_refused():
 #: Conversions of what is no array of a user.
 OWN = (
     "contact/arrays.py",  # the converter
-    "contact/columns.py",  # rows that a reader has made
-    "contact/notebook.py",  # what is drawn
+    "contact/reading/columns.py",  # rows that a reader has made
+    "contact/view/notebook.py",  # what is drawn
     "contact/accumulation/histogram.py",  # of its own sums
     "contact/halfspace/bent.py",
     "contact/halfspace/step.py",

@@ -11,7 +11,7 @@ from contact.damage.temperature import flash_temperature
 from contact.friction import Friction
 from contact.geometry import profile
 from contact.geometry.wheelset import Pair, Pose
-from contact.material import Thermal
+from contact.inputs.material import Thermal
 from contact.pair import WheelRailPair
 
 SEPARATION = contact.Separation.hertzian(1.0, 2.0)

@@ -1,4 +1,4 @@
-"""Derivatives of one contact (`contact.solution.jacobian`), against central differences of solutions."""
+"""Derivatives of one contact (`contact.results.jacobian`), against central differences of solutions."""
 
 import json
 import pickle
@@ -9,7 +9,7 @@ import pytest
 import contact
 from contact import Creepage, Separation
 from contact.errors import ContactError
-from contact.solution import Jacobian
+from contact.results import Jacobian
 
 MU = 0.3
 HERTZ = Separation.hertzian(1.1, 0.8)

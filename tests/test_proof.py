@@ -5,7 +5,7 @@ from pathlib import Path
 import pytest
 
 import contact
-from contact.material import Thermal
+from contact.inputs.material import Thermal
 from reference import roller_rig, traction, twin_disc
 
 PAGE = Path(__file__).resolve().parents[1] / "docs" / "check" / "proof.md"

@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from contact import workspace
+from contact.instance import workspace
 from contact.kernels import quadrature
 from contact.kernels.rows import Element
 

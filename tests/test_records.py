@@ -8,15 +8,15 @@ import numpy as np
 import pytest
 
 import contact
-from contact import notebook
 from contact.accumulation import Histogram
 from contact.errors import ContactError
 from contact.friction import Friction
 from contact.geometry import profile
 from contact.geometry.wheelset import Pair, Pose
-from contact.material import Thermal
+from contact.inputs.material import Thermal
 from contact.pair import WheelRailPair
-from contact.solution import Solution
+from contact.results import Solution
+from contact.view import notebook
 from tests.notebooks import drawn, parsed, words
 
 CREEPAGE = contact.Creepage(1e-3, -5e-4, 0.2)

@@ -13,8 +13,8 @@ from contact import Creepage, Separation
 from contact.geometry import profile
 from contact.geometry.wheelset import Pair, Pose, Velocity
 from contact.pair import WheelRailPair, over_poses
-from contact.tables import axes_of
-from contact.units import UNITS
+from contact.view.tables import axes_of
+from contact.view.units import UNITS
 
 pandas = pytest.importorskip("pandas")
 xarray = pytest.importorskip("xarray")

@@ -7,10 +7,11 @@ import zipfile
 import numpy as np
 import pytest
 
-from contact import ContactError, text
+from contact import ContactError
 from contact.cli import arguments, cases, options
-from contact.columns import table
 from contact.geometry import profile
+from contact.reading import text
+from contact.reading.columns import table
 from models.life import declared
 from models.life.measured import Measured
 from tests.geometry.written import COLUMNS

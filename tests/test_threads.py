@@ -26,9 +26,9 @@ from contact.errors import ContactError
 from contact.geometry import profile
 from contact.geometry.surfaces import Flat, SurfacePair, WheelSurface
 from contact.geometry.wheelset import Pair, Pose, Velocity
-from contact.ownership import OwnsArrays
+from contact.instance.ownership import OwnsArrays
 from contact.pair import HalfspacePair, RollerRig, WheelRailPair, over_poses, solved
-from contact.solution import solution as solutions
+from contact.results import solution as solutions
 from contact.stress import Endurance
 from models.vehicle.coupling import OpenVehicle
 from models.wheelset.model import WheelsetModel
@@ -215,7 +215,7 @@ def test_two_pairs_made_of_one_are_both_right_at_the_same_time():
 
 
 def test_two_pairs_with_one_ledger_take_turns():
-    from contact import workspace
+    from contact.instance import workspace
 
     ledger = workspace.ledger(np.stack((WHEEL.y, WHEEL.z)), np.stack((RAIL.y, RAIL.z)), 20, 200, -0.1, 1e-3)
     one, other = (WheelRailPair(pair(), ledger=ledger) for _ in range(2))

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import matplotlib.pyplot as plt
 
-from contact.material import Thermal
+from contact.inputs.material import Thermal
 from reference import traction
 
 

@@ -15,7 +15,7 @@ from contact.accumulation.histogram import MAXIMA, SUMS, Histogram
 from contact.damage import ArchardMap, Burstow, DamageParameters, PearceSherratt, Usfd
 from contact.errors import ContactError
 from contact.geometry.profile import Profile
-from contact.material import Material
+from contact.inputs.material import Material
 
 FORMAT = "wheelrail-contact damage histogram 3"
 

@@ -15,13 +15,13 @@ from contact.damage.assessment import assess
 from contact.errors import ContactError, require_number
 from contact.geometry.profile import Profile
 from contact.geometry.records import Patch
+from contact.inputs.material import Material
+from contact.instance.ownership import OwnsArrays, one_thread
 from contact.kernels.damage import deposit
 from contact.kernels.records import LEDGER
 from contact.kernels.rows import Bin
-from contact.material import Material
-from contact.notebook import Sketch
-from contact.ownership import OwnsArrays, one_thread
-from contact.solution import Solution
+from contact.results import Solution
+from contact.view.notebook import Sketch
 
 Per = Literal["metre", "revolution", "pass"]
 

@@ -12,10 +12,10 @@ from contact.arrays import as_array
 from contact.errors import ContactError, require_number
 from contact.geometry.profile import Profile
 from contact.geometry.records import Patch
+from contact.instance.ownership import OwnsArrays, one_thread
 from contact.kernels.damage import deposit
 from contact.kernels.rows import Strip
-from contact.ownership import OwnsArrays, one_thread
-from contact.solution import Solution
+from contact.results import Solution
 from contact.stress import Endurance, SurfaceLoad, dang_van
 
 #: Elements along each side onto which a solution on strips is put.

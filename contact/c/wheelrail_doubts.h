@@ -1,6 +1,6 @@
 /* The part of wheelrail.c with values that are allowed but that no wheel on a rail has.  Included there once.
  *
- * The rules are those of contact.plausibility, by way of wheelrail_records.h. */
+ * The rules are those of contact.inputs.plausibility, by way of wheelrail_records.h. */
 
 typedef struct {
     double largest, least;

@@ -37,10 +37,10 @@ from contact.cli.roller import roller
 from contact.cli.statistics import statistics
 from contact.cli.stress import stress
 from contact.cli.transient import transient
-from contact.creepage import Creepage
 from contact.errors import require_number
+from contact.inputs.creepage import Creepage
+from contact.inputs.separation import Separation
 from contact.registry import DEFAULT_NORMAL, DEFAULT_TANGENTIAL, methods
-from contact.separation import Separation
 
 PICTURE_RESOLUTION = {"n_strips": 60, "n_elements": 60}
 

@@ -15,14 +15,14 @@ from dataclasses import fields
 from pathlib import Path
 from typing import Any
 
-from contact import text
 from contact.cli import arguments
 from contact.cli import options as opt
 from contact.cli.problem import OF_A_POSITION, amount_of, find_patches, standard_load
-from contact.columns import number
-from contact.creepage import Creepage
 from contact.errors import ContactError, require_number
-from contact.separation import Separation
+from contact.inputs.creepage import Creepage
+from contact.inputs.separation import Separation
+from contact.reading import text
+from contact.reading.columns import number
 from contact.study import Case
 
 _TEXTS = (

@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 
 import contact
-from contact.units import UNITS
+from contact.view.units import UNITS
 
 #: Units of names that mean another thing in some commands: the rotation of a wheel.
 _ROTATING = {"spin": "rad/s", "creepage.spin": "1/m"}

@@ -14,11 +14,11 @@ from contact.cli import options as opt
 from contact.cli.output import deliver, drawing, prepare, reported, require_trusted
 from contact.cli.problem import carried
 from contact.cli.report import show_curve
-from contact.columns import table
 from contact.errors import ContactError
 from contact.geometry.wheelset import Pair
 from contact.pair import ContactDamping, ElasticRail, FrictionMemory, WheelRailPair
 from contact.pair.motion import AMOUNTS, LOAD
+from contact.reading.columns import table
 from contact.registry import DEFAULT_NORMAL, DEFAULT_TANGENTIAL
 
 _SHOWN = 25  # lines of the printed table

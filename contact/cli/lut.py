@@ -20,8 +20,8 @@ from contact.cli.problem import load_or_standard
 from contact.cli.progress import progress_bar
 from contact.errors import ContactError, PlausibilityWarning
 from contact.geometry.wheelset import Pair
+from contact.inputs.plausibility import doubt_values
 from contact.pair import WheelRailPair
-from contact.plausibility import doubt_values
 from contact.registry import DEFAULT_NORMAL, DEFAULT_TANGENTIAL
 from contact.study import lookup
 

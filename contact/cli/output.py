@@ -16,7 +16,7 @@ from contact.cli.document import document, running
 from contact.cli.extras import EXTRAS, absent_modules
 from contact.cli.groups import expanded
 from contact.errors import ContactError, PlausibilityWarning
-from contact.solution import Status
+from contact.results import Status
 from contact.study.files import PICTURES, csv_of, require_ending, write
 
 #: Names in messages of the library → the options that set them, where the names differ.

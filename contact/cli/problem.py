@@ -8,13 +8,13 @@ from dataclasses import asdict, dataclass, replace
 from typing import Any
 
 from contact.cli.document import in_effect
-from contact.creepage import Creepage
 from contact.errors import ContactError, PlausibilityWarning
 from contact.geometry import wheelset
 from contact.geometry.profile import Profile
 from contact.geometry.wheelset import Patch, Pose, Velocity
-from contact.separation import Separation
-from contact.solution import Solution
+from contact.inputs.creepage import Creepage
+from contact.inputs.separation import Separation
+from contact.results import Solution
 from contact.solve import solve
 
 STANDARD_LOAD = 80e3  # load [N] if neither load nor penetration is given

@@ -16,7 +16,7 @@ from contact.geometry.flexible import WheelOffset
 from contact.geometry.wheelset import Pair, Velocity
 from contact.pair import ElasticRail, WheelRailPair
 from contact.registry import DEFAULT_NORMAL, DEFAULT_TANGENTIAL
-from contact.solution import Status
+from contact.results import Status
 from contact.study.table import number
 
 

@@ -14,7 +14,7 @@ from contact.cli.problem import Touch
 from contact.damage import Damage, evaluate
 from contact.geometry.wheelset import Patch
 from contact.registry import Methods
-from contact.solution import Solution
+from contact.results import Solution
 from contact.study.table import number
 
 PLACE: Sequence[tuple[str, str, Callable[[Patch], float]]] = (

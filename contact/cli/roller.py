@@ -13,7 +13,7 @@ from contact.geometry.records import Patch
 from contact.geometry.wheelset import Pair, Velocity
 from contact.pair import RollerRig
 from contact.registry import DEFAULT_NORMAL, DEFAULT_TANGENTIAL
-from contact.solution import Solution
+from contact.results import Solution
 
 
 @reported

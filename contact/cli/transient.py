@@ -8,10 +8,10 @@ from contact.cli import options as opt
 from contact.cli import report
 from contact.cli.output import deliver, drawing, prepare, reported
 from contact.cli.problem import load_or_standard
-from contact.creepage import Creepage
 from contact.errors import ContactError, require_number
 from contact.halfspace import Transient
-from contact.separation import Separation
+from contact.inputs.creepage import Creepage
+from contact.inputs.separation import Separation
 
 _MOST = 100_000  # steps
 _SHOWN = 25  # lines of the printed table

@@ -13,14 +13,14 @@ from contact.damage.burstow import Burstow
 from contact.damage.pearce_sherratt import PearceSherratt
 from contact.damage.usfd import Usfd
 from contact.errors import ContactError, only_with_fields, require_number
+from contact.inputs.material import Material
 from contact.kernels.damage.assess import damage_kernel
 from contact.kernels.records import CASE, DAMAGE, DAMAGE_PARAMETERS, RESULT
 from contact.kernels.rows import DamageField, Field, Strip
-from contact.material import Material
 from contact.registry import methods
 
 if TYPE_CHECKING:
-    from contact.solution import Solution
+    from contact.results import Solution
 
 WearLaw = Literal["archard", "usfd", "usfd_local", "pearce_sherratt"]
 WEAR_LAWS: tuple[WearLaw, ...] = get_args(WearLaw)

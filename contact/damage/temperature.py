@@ -18,10 +18,10 @@ import numpy as np
 
 from contact.arrays import Array
 from contact.errors import ContactError
-from contact.material import Thermal
+from contact.inputs.material import Thermal
 
 if TYPE_CHECKING:
-    from contact.solution import Solution
+    from contact.results import Solution
 
 
 def heating(flux: Array, edges: Array, speed: float, thermal: Thermal) -> Array:

@@ -15,7 +15,7 @@ import numpy as np
 from contact.errors import ContactError
 from contact.geometry.formats import Choice, Content, chosen, points_in
 from contact.geometry.inspection import Fault, Finding, Points
-from contact.text import content
+from contact.reading.text import content
 
 #: Of a drawing's extent: distance of points on long lines, what is long, chords off arcs, distance of ends that meet.
 _SPACING, _LONG, _CHORD, _TOGETHER = 1 / 400, 1 / 30, 1e-6, 1e-4

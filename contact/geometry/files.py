@@ -17,7 +17,7 @@ others              `kind`          Two or more columns y, z separated by blanks
                                     the shape.
 ==================  ==============  ==========================================================================================
 
-Decimal commas are recognised where another sign separates the columns. `contact.text` and `contact.columns` read the text:
+Decimal commas are recognised where another sign separates the columns. `contact.reading` reads the text:
 encodings, typographic signs, remarks, headings. False and missing rows are left out and told.
 """
 
@@ -38,8 +38,8 @@ from contact.geometry.inspection import FATAL, Fault
 from contact.geometry.judgement import Inspection as Inspection
 from contact.geometry.judgement import inspect_profile, judged
 from contact.geometry.shape import Kind, Profile
-from contact.text import LARGEST_FILE as LARGEST_FILE
-from contact.text import require_file
+from contact.reading.text import LARGEST_FILE as LARGEST_FILE
+from contact.reading.text import require_file
 
 Unit = Literal["m", "mm", "inch"]
 Side = Literal["right", "left"]

@@ -12,12 +12,12 @@ from pathlib import Path
 
 import numpy as np
 
-from contact.columns import number, rows_of, without_remark
 from contact.errors import ContactError
 from contact.geometry.false_rows import false_rows
 from contact.geometry.inspection import Fault, Finding, Points
 from contact.geometry.shape import Kind
-from contact.text import lines_of
+from contact.reading.columns import number, rows_of, without_remark
+from contact.reading.text import lines_of
 
 MM = 1e-3
 INCH = 25.4e-3

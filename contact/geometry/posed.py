@@ -8,11 +8,11 @@ import numpy as np
 
 from contact.errors import ContactError, require_number
 from contact.geometry.records import Irregularity, Pose, Velocity
+from contact.inputs.plausibility import USUAL, doubt_value
+from contact.instance.ownership import OwnsArrays, one_thread
 from contact.kernels.enumerations import Height, NoAnswer
 from contact.kernels.geometry.settle import DEEPEST
 from contact.kernels.records import GIVEN, SLOWEST
-from contact.ownership import OwnsArrays, one_thread
-from contact.plausibility import USUAL, doubt_value
 
 Side = Literal["right", "left"]
 

@@ -5,11 +5,11 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from contact.creepage import Creepage
 from contact.errors import require_number
+from contact.inputs.creepage import Creepage
+from contact.inputs.separation import Separation
 from contact.kernels.records import LARGEST_ANGLE, LARGEST_RAIL_ROLL
-from contact.notebook import beside, table
-from contact.separation import Separation
+from contact.view.notebook import beside, table
 
 
 @dataclass(frozen=True, slots=True)

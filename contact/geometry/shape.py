@@ -19,7 +19,7 @@ from contact.errors import ContactError, require_number, warn
 from contact.geometry import inspection
 from contact.geometry.inspection import Kind as Kind
 from contact.geometry.outline import spline_slopes
-from contact.notebook import Sketch, figures
+from contact.view.notebook import Sketch, figures
 
 
 @dataclass(frozen=True, eq=False)

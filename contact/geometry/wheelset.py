@@ -24,21 +24,21 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from contact import workspace
 from contact.arrays import Array, as_array
-from contact.creepage import Creepage
 from contact.errors import ContactError, require_integer, require_number
 from contact.geometry.posed import Posed, Side
 from contact.geometry.records import Irregularity, Patch, Pose, Velocity
 from contact.geometry.shape import Profile
+from contact.inputs.creepage import Creepage
+from contact.inputs.material import STEEL, Material
+from contact.inputs.separation import Separation
+from contact.instance import workspace
+from contact.instance.ownership import one_thread, within
 from contact.kernels.arrays import Search
 from contact.kernels.geometry.prepare import facing, move, rail_origin, take_nodes
 from contact.kernels.geometry.settle import first_touch, settle
 from contact.kernels.records import MAX_PATCHES, SLOWEST, TAPE_FROM_FLANGE_BACK
 from contact.kernels.rows import Curve
-from contact.material import STEEL, Material
-from contact.ownership import one_thread, within
-from contact.separation import Separation
 
 __all__ = ["Irregularity", "Pair", "Patch", "Pose", "Velocity", "contacts"]
 

@@ -8,11 +8,11 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from contact.arrays import Array
-from contact.creepage import Creepage
+from contact.inputs.creepage import Creepage
+from contact.inputs.separation import Separation
 from contact.kernels.conformal import bend
 from contact.kernels.records import CASE
 from contact.kernels.rows import Strip
-from contact.separation import Separation
 
 #: The arc length is summed over this many pieces between two samples of a separation.
 _PIECES = 16

@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 
 from contact.arrays import Array
 from contact.halfspace.influence import Influence
-from contact.material import Material
+from contact.inputs.material import Material
 
 
 class _Angles:

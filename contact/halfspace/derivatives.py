@@ -16,7 +16,6 @@ from typing import NamedTuple
 import numpy as np
 
 from contact.arrays import Array
-from contact.creepage import Creepage
 from contact.errors import ContactError
 from contact.halfspace.bent import Bent
 from contact.halfspace.krylov import gmres
@@ -24,7 +23,8 @@ from contact.halfspace.norm import response
 from contact.halfspace.pressed import Pressed
 from contact.halfspace.solution import GridSolution
 from contact.halfspace.tang import OFFSET, prepare, rigid_slip
-from contact.solution import Jacobian
+from contact.inputs.creepage import Creepage
+from contact.results import Jacobian
 
 #: Relative accuracy of the linear systems, and the most steps of each.
 _TOLERANCE, _MOST = 1e-7, 150

@@ -11,12 +11,12 @@ from numpy.typing import ArrayLike
 from contact.arrays import Array, as_array
 from contact.core import entry
 from contact.errors import ContactError
+from contact.inputs.separation import Separation
 from contact.kernels import cubic
 from contact.kernels.arrays import Numbers
 from contact.kernels.cubic import locate, slopes
 from contact.kernels.normal.lay import find_patches, least_point
 from contact.kernels.records import MAX_PATCHES
-from contact.separation import Separation
 
 #: Most elements along one side of a grid.
 MAX_SIDE = 2000

@@ -20,8 +20,8 @@ from numpy.typing import ArrayLike, NDArray
 
 from contact.arrays import Array
 from contact.core import Shape, entry, kernel
+from contact.inputs.material import Material
 from contact.kernels.arrays import Matrix
-from contact.material import Material
 
 ComplexMatrix = Annotated[Any, Shape(np.complex128, 2)]
 ComplexCube = Annotated[Any, Shape(np.complex128, 3)]

@@ -17,8 +17,8 @@ import numpy as np
 
 from contact.arrays import Array
 from contact.halfspace import influence
-from contact.material import Material
-from contact.solution import Strips
+from contact.inputs.material import Material
+from contact.results import Strips
 
 _STATES = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
 

@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 from contact.arrays import Array, as_array
 from contact.errors import ContactError, require_number
 from contact.friction import LARGEST, Friction, as_friction
-from contact.material import Thermal
+from contact.inputs.material import Thermal
 
 #: Terms over the slip velocity.
 TERMS = ("linear", "rational", "rational_square", "exponential")

@@ -22,8 +22,8 @@ from contact.core import entry
 from contact.halfspace.curved import Curved
 from contact.halfspace.influence import Influence
 from contact.halfspace.krylov import dot, size
+from contact.inputs.material import Material
 from contact.kernels.arrays import Flags, Matrix
-from contact.material import Material
 
 #: Limits: iterations at given approach, and steps of the approach at given load.
 MAX_ITERATIONS, MAX_STEPS = 300, 30

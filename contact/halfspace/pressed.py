@@ -10,8 +10,6 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from contact.arrays import Array
-from contact.case import set_surface
-from contact.creepage import Creepage
 from contact.friction import Friction
 from contact.halfspace.bent import Bent, Surface
 from contact.halfspace.curved import BentCoupling
@@ -22,10 +20,12 @@ from contact.halfspace.solution import GridSolution, assemble
 from contact.halfspace.tang import OFFSET, Tangential, prepare, tang
 from contact.halfspace.third_body import Sheared, ThirdBody, solve_layer
 from contact.halfspace.unlike import Coupling
+from contact.inputs.creepage import Creepage
+from contact.inputs.material import Material
+from contact.instance.case import set_surface
 from contact.kernels.friction import of_bodies
 from contact.kernels.records import CASE
-from contact.material import Material
-from contact.solution import Status
+from contact.results import Status
 
 #: Iteration of friction that depends on local slip velocity or temperature: largest number of steps, relaxation factor,
 #: tolerance over mu.

@@ -8,12 +8,12 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from contact.arrays import Array, as_array, broadcast, require_numbers
-from contact.creepage import Creepage
 from contact.halfspace.bent import Bent, Surface
 from contact.halfspace.tang import Tangential
 from contact.halfspace.third_body import Sheared
-from contact.material import Material
-from contact.solution import Solution, Status, Strips
+from contact.inputs.creepage import Creepage
+from contact.inputs.material import Material
+from contact.results import Solution, Status, Strips
 
 
 @dataclass(frozen=True, repr=False, eq=False)

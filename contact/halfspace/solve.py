@@ -16,9 +16,9 @@ from contact.halfspace.gap import Division, Gap, lay, least, overlap
 from contact.halfspace.norm import Normal, norm
 from contact.halfspace.pressed import Pressed, PressedRecord
 from contact.halfspace.third_body import ThirdBody
-from contact.material import Material
-from contact.separation import Separation
-from contact.solution import Solution, Status
+from contact.inputs.material import Material
+from contact.inputs.separation import Separation
+from contact.results import Solution, Status
 
 #: Elements on which the approach under a load is estimated, and the largest number of steps of that estimate.
 _COARSE, _MAX_STEPS = Division(20, 20), 40

@@ -15,7 +15,6 @@ from typing import NamedTuple
 import numpy as np
 
 from contact.arrays import Array
-from contact.creepage import Creepage
 from contact.halfspace import influence as half_space
 from contact.halfspace import zones
 from contact.halfspace.bent import Bent
@@ -28,7 +27,8 @@ from contact.halfspace.state import State
 from contact.halfspace.tang import OFFSET, Rolling, Tangential, rigid_slip
 from contact.halfspace.third_body import FLOOR, LEAST, Sheared, ThirdBody, from_the_front, hardened
 from contact.halfspace.unlike import Coupling
-from contact.material import Material
+from contact.inputs.creepage import Creepage
+from contact.inputs.material import Material
 
 #: Residual of a step.
 _TOLERANCE = 1e-7

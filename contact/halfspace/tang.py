@@ -24,12 +24,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from contact.arrays import Array
-from contact.creepage import Creepage
 from contact.halfspace import zones
 from contact.halfspace.bent import Bent
 from contact.halfspace.influence import Influence, tangential
 from contact.halfspace.newton import Newton, Operator
-from contact.material import Material
+from contact.inputs.creepage import Creepage
+from contact.inputs.material import Material
 
 Window = tuple[slice, slice]
 

@@ -21,8 +21,8 @@ from contact.arrays import Array
 from contact.errors import require_number
 from contact.halfspace import linear
 from contact.halfspace.tang import Tangential
-from contact.material import Material
-from contact.solution import Strips
+from contact.inputs.material import Material
+from contact.results import Strips
 
 #: Elements along a strip for linear theory.
 _COARSE = 16

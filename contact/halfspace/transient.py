@@ -23,7 +23,6 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from contact.arrays import Array, as_array
-from contact.creepage import Creepage, as_creepage
 from contact.errors import ContactError, require_number, require_pair
 from contact.friction import Friction
 from contact.given_force import wanted_force
@@ -37,10 +36,11 @@ from contact.halfspace.state import State
 from contact.halfspace.step import Stepper
 from contact.halfspace.third_body import ThirdBody
 from contact.halfspace.unlike import Coupling
-from contact.material import STEEL, Material
-from contact.ownership import OwnsArrays, one_thread, within
-from contact.separation import Separation
-from contact.solution import Status
+from contact.inputs.creepage import Creepage, as_creepage
+from contact.inputs.material import STEEL, Material
+from contact.inputs.separation import Separation
+from contact.instance.ownership import OwnsArrays, one_thread, within
+from contact.results import Status
 
 #: Given forces (Fx, Fy) on the wheel [N]; None where the motion is given.
 Force = float | tuple[float | None, float | None]

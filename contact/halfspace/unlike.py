@@ -18,7 +18,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from contact.arrays import Array
 from contact.halfspace.influence import fast_length
-from contact.material import Material
+from contact.inputs.material import Material
 
 
 def integrals(X: ArrayLike, Y: ArrayLike, dx: float, dy: float) -> tuple[Array, Array]:

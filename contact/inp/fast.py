@@ -7,16 +7,16 @@ from typing import Any
 import numpy as np
 
 from contact.arrays import Array
-from contact.creepage import Creepage
 from contact.friction import Friction
 from contact.inp.case import Case
 from contact.inp.grid import bed, direction, material
 from contact.inp.reasons import refuse
 from contact.inp.results import PatchResult, Result
 from contact.inp.single import layer, require_supported
+from contact.inputs.creepage import Creepage
+from contact.inputs.separation import Separation
 from contact.registry import DEFAULT_NORMAL, lookup
-from contact.separation import Separation
-from contact.solution import Solution, Status
+from contact.results import Solution, Status
 from contact.solve import solve
 
 #: Samples of a separation.

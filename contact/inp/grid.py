@@ -12,8 +12,8 @@ from contact.arrays import Array
 from contact.halfspace import Gap
 from contact.inp.case import Case
 from contact.inp.reasons import refuse
+from contact.inputs.material import Material
 from contact.kernels.hertz import coefficients
-from contact.material import Material
 from contact.theory.hertz import hertz
 
 #: Gap of elements that are excluded [m]: they never touch.

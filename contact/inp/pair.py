@@ -9,7 +9,6 @@ from typing import Any
 import numpy as np
 
 from contact.arrays import Array
-from contact.creepage import Creepage
 from contact.friction import Friction
 from contact.geometry.records import Irregularity, Pose, Velocity
 from contact.geometry.surfaces import SurfacePair, SurfacePatch
@@ -20,6 +19,7 @@ from contact.inp.grid import material
 from contact.inp.reasons import refuse, require_digits
 from contact.inp.results import PatchResult, Result
 from contact.inp.single import layer
+from contact.inputs.creepage import Creepage
 from contact.pair.halfspace import HalfspacePair
 from contact.pair.solution import Contact, PairSolution, Solved
 from contact.pair.wheel_rail import WheelRailPair

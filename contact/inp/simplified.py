@@ -11,7 +11,7 @@ from contact.inp.case import Case
 from contact.inp.grid import Bed
 from contact.inp.reasons import refuse
 from contact.inp.results import PatchResult, Result
-from contact.material import Material
+from contact.inputs.material import Material
 from contact.theory.hertz import hertz
 from contact.theory.kalker import coefficients, table
 

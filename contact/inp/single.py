@@ -9,7 +9,6 @@ from typing import Any
 import numpy as np
 
 from contact.arrays import Array
-from contact.creepage import Creepage
 from contact.damage.temperature import flash_temperature
 from contact.halfspace import GridSolution, LocalLaw, Transient, norm
 from contact.halfspace.influence import Influence
@@ -20,8 +19,9 @@ from contact.inp.case import Case
 from contact.inp.grid import Bed, bed, direction, material
 from contact.inp.reasons import refuse, require_digits
 from contact.inp.results import PatchResult, Result
-from contact.material import Material, Thermal
-from contact.solution import Status
+from contact.inputs.creepage import Creepage
+from contact.inputs.material import Material, Thermal
+from contact.results import Status
 
 #: Bytes for each element of the padded grid: fields, transforms and the vectors of GMRES.
 _BYTES_PER_ELEMENT = 4200

@@ -218,8 +218,8 @@ def solve_case(sep, cases, own, results):
     cases, results : arrays of one record CASE and RESULT
         The case is only read. An array is cheaper to pass from Python than a record.
     own : Workspace
-        `contact.workspace.allocate` makes a fitting one. Where fields have a single row, only strips and result have a meaning.
-        A case on a bent surface (`case.conformal`) or with a limit of the pressure needs all rows.
+        `contact.instance.workspace.allocate` makes a fitting one. Where fields have a single row, only strips and result have a
+        meaning. A case on a bent surface (`case.conformal`) or with a limit of the pressure needs all rows.
     """
     case, result = cases[0], results[0]
     n = press_case(sep, case, own, result)

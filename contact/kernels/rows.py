@@ -186,7 +186,7 @@ class Event(IntEnum):
 
 
 class Iterate(IntEnum):
-    """Columns of the iterations of interacting strips (`contact.trace`)."""
+    """Columns of the iterations of interacting strips (`contact.view.trace`)."""
 
     ERROR = 0  # load-weighted mean residual of ln a
     MOVED = 1  # largest change of an end over the width

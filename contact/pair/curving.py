@@ -15,11 +15,11 @@ from contact.friction import Friction
 from contact.geometry.profile import Profile
 from contact.geometry.records import Pose, Velocity
 from contact.geometry.wheelset import Pair
+from contact.inputs.plausibility import doubt_gap
 from contact.pair.solution import PairSolution
 from contact.pair.wheel_rail import WheelRailPair
-from contact.plausibility import doubt_gap
 from contact.registry import DEFAULT_NORMAL, lookup
-from contact.solution import Status
+from contact.results import Status
 
 GRAVITY = 9.81  # [m/s²]
 RAIL_DISTANCE = 1.5  # of the rails' centres, over which cant is measured [m]

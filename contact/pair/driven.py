@@ -10,7 +10,7 @@ from contact.errors import ContactError, require_number
 from contact.geometry.records import Velocity
 from contact.given_force import rising_root
 from contact.pair.solution import PairSolution
-from contact.solution import Status
+from contact.results import Status
 
 #: Largest error of the force over the vertical force; a larger one, up to `_LEFT`, is accepted if the force jumps.
 _TOLERANCE, _LEFT = 1e-5, 1e-3

@@ -12,13 +12,13 @@ from contact.errors import ContactError, require_number
 from contact.friction import Friction
 from contact.geometry.records import Irregularity, Pose, Velocity
 from contact.geometry.surfaces import SurfacePair, SurfacePatch
+from contact.instance.ownership import one_thread, within
 from contact.kernels.enumerations import Height
-from contact.ownership import one_thread, within
 from contact.pair.motion import AnyPair
 from contact.pair.solution import PairSolution, Solved, of_patches
 from contact.pair.wheel_rail import WheelRailPair
 from contact.registry import DEFAULT_TANGENTIAL
-from contact.solution import Status
+from contact.results import Status
 from contact.solve import solve
 
 #: Iteration for a vertical force with friction: largest number of steps, and tolerances relative to the force. On rough

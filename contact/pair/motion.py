@@ -22,12 +22,12 @@ from contact.geometry.flexible import WheelOffset
 from contact.geometry.posed import Posed
 from contact.geometry.records import Irregularity, Pose, Velocity
 from contact.geometry.surfaces import SurfacePair
-from contact.ownership import OwnsArrays
+from contact.instance.ownership import OwnsArrays
 from contact.pair.contact_damping import ContactDamping
 from contact.pair.elastic_rail import ElasticRail
 from contact.pair.friction_memory import FrictionMemory
 from contact.pair.solution import PairSolution
-from contact.tables import Table, Tabular
+from contact.view.tables import Table, Tabular
 
 MOST_ROWS = 1_000_000
 TIME, STATION, LOAD, COEFFICIENT = "time", "station", "load.normal_force", "friction.coefficient"

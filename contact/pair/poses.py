@@ -11,19 +11,19 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from contact.arrays import Array, require_numbers
-from contact.case import set_surface
-from contact.creepage import LARGEST_CREEPAGE
 from contact.errors import ContactError
 from contact.forces import cores
 from contact.friction import LARGEST, Friction
 from contact.geometry.posed import MAX_PENETRATION
 from contact.geometry.wheelset import Pair
+from contact.inputs.creepage import LARGEST_CREEPAGE
+from contact.inputs.plausibility import doubt_values
+from contact.instance.case import set_surface
 from contact.kernels.enumerations import Height
 from contact.kernels.records import GIVEN, LARGEST_ANGLE, TOTAL
 from contact.pair.wheel_rail import WheelRailPair
-from contact.plausibility import doubt_values
-from contact.solution import Status
-from contact.tables import ArrayOfResults
+from contact.results import Status
+from contact.view.tables import ArrayOfResults
 
 _CHUNK = 64  # poses between two reports of progress
 

@@ -23,19 +23,19 @@ from typing import Any
 
 import numpy as np
 
-from contact.creepage import Creepage
 from contact.errors import ContactError, require_number
 from contact.friction import Friction, as_friction
 from contact.geometry.records import Patch, Pose, Velocity
 from contact.geometry.surfaces.frame import Frame
 from contact.geometry.wheelset import Pair
 from contact.given_force import rising_root
-from contact.material import STEEL, Material
-from contact.ownership import one_thread, within
+from contact.inputs.creepage import Creepage
+from contact.inputs.material import STEEL, Material
+from contact.inputs.separation import Separation
+from contact.instance.ownership import one_thread, within
 from contact.pair.motion import AnyPair
 from contact.pair.solution import PairSolution, Solved, of_patches
 from contact.registry import DEFAULT_NORMAL, DEFAULT_TANGENTIAL
-from contact.separation import Separation
 from contact.solve import solve
 from contact.solver import N_ELEMENTS, N_STRIPS
 

@@ -10,13 +10,13 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from contact.arrays import Array
-from contact.creepage import Creepage
 from contact.damage import Damage, evaluate
 from contact.geometry.records import Patch, Pose, contact_angle
 from contact.geometry.surfaces import SurfacePatch
-from contact.notebook import beside, table
-from contact.solution import PairJacobian, Solution, Status
-from contact.tables import Table, Tabular
+from contact.inputs.creepage import Creepage
+from contact.results import PairJacobian, Solution, Status
+from contact.view.notebook import beside, table
+from contact.view.tables import Table, Tabular
 
 
 @dataclass(frozen=True, slots=True)

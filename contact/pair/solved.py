@@ -8,11 +8,11 @@ from typing import Any
 
 import numpy as np
 
-from contact.creepage import Creepage
+from contact.inputs.creepage import Creepage
 from contact.kernels.arrays import Bench
 from contact.kernels.records import CONTACT, TOTAL
 from contact.pair.solution import Contact, PairDamage, PairSolution
-from contact.solution import PairJacobian, Status
+from contact.results import PairJacobian, Status
 
 _STATES = {int(status): status for status in Status}
 #: Member of TOTAL → attribute of a solution, for the numbers that are called otherwise.

@@ -8,8 +8,6 @@ from typing import Any
 
 import numpy as np
 
-from contact import workspace
-from contact.case import SURFACE, cases, surface_bytes
 from contact.core import pack
 from contact.damage import DamageParameters
 from contact.errors import ContactError, require_number
@@ -19,6 +17,11 @@ from contact.geometry.posed import Posed
 from contact.geometry.records import Irregularity, Pose, Velocity
 from contact.geometry.surfaces import SurfacePair
 from contact.geometry.wheelset import Pair
+from contact.inputs.material import STEEL, Material
+from contact.inputs.plausibility import doubt_alike, doubt_gap, doubt_strips
+from contact.instance import workspace
+from contact.instance.case import SURFACE, cases, surface_bytes
+from contact.instance.ownership import one_thread, turn_of, within
 from contact.kernels.arrays import Aside, Bench, Given, Ledger, Search, SurfaceSearch
 from contact.kernels.enumerations import Height, NoAnswer
 from contact.kernels.flexible import solve_on_profiles, solve_on_surfaces
@@ -26,20 +29,17 @@ from contact.kernels.normal.strip_halfspace import MAX_ITERATIONS
 from contact.kernels.pair_conditions import derive_on_profiles, derive_on_surfaces
 from contact.kernels.records import GIVEN, LARGEST_ANGLE
 from contact.kernels.rows import Moved
-from contact.material import STEEL, Material
-from contact.notebook import figures
-from contact.ownership import one_thread, turn_of, within
 from contact.pair.driven import drive
 from contact.pair.elastic_rail import ElasticRail
 from contact.pair.motion import AnyPair
 from contact.pair.solution import PairSolution
 from contact.pair.solved import Answer
-from contact.plausibility import doubt_alike, doubt_gap, doubt_strips
 from contact.registry import DEFAULT_NORMAL, DEFAULT_TANGENTIAL, lookup
-from contact.solution import BEND, PairJacobian
-from contact.solution.jacobian import columns_of_pair
+from contact.results import BEND, PairJacobian
+from contact.results.jacobian import columns_of_pair
 from contact.solve import solve
 from contact.solver import N_ELEMENTS, N_STRIPS, require_max_iterations, require_resolution
+from contact.view.notebook import figures
 
 _RIGID, _STRAIGHT = ElasticRail(), WheelOffset()
 #: Columns of the derivatives, with and without the amount that prescribes the height.

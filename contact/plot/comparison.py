@@ -14,7 +14,7 @@ from contact.errors import ContactError
 from contact.plot.mesh import PatchMesh
 from contact.plot.patches import Scale, arrows, heading, slip_share, window, zones
 from contact.plot.style import DPI, FAINT, colour_map, nice, style
-from contact.solution import Solution
+from contact.results import Solution
 
 #: Largest side of a picture [inch]; programs cannot show larger ones.
 _LARGEST = 400.0

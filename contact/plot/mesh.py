@@ -6,7 +6,7 @@ import numpy as np
 
 from contact.arrays import Array
 from contact.plot.style import MM
-from contact.solution import Solution
+from contact.results import Solution
 
 
 class PatchMesh:

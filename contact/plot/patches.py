@@ -17,7 +17,7 @@ from contact.damage import evaluate
 from contact.errors import ContactError
 from contact.plot.mesh import PatchMesh
 from contact.plot.style import DPI, FAINT, INK, colour_map, nice, style
-from contact.solution import Solution
+from contact.results import Solution
 
 
 def patch(

@@ -16,7 +16,7 @@ from contact.arrays import Array
 from contact.errors import ContactError
 from contact.plot.patches import Scale, patch
 from contact.plot.style import DPI, FAINT, INK, LINES, MM, style
-from contact.solution import Solution
+from contact.results import Solution
 
 #: Notes on the profiles below their picture: letters to the inch, height of a line and of the space above [inch].
 _LETTERS, _LINE, _GAP = 15.0, 0.15, 0.15

@@ -10,7 +10,7 @@ from matplotlib.figure import Figure
 from contact.damage.shakedown import ELLIPSE, LINE, shakedown_limit
 from contact.errors import ContactError
 from contact.plot.style import DPI, FAINT, INK, looks, style
-from contact.solution import Solution
+from contact.results import Solution
 
 _WIDEST = 0.6  # least upper end of the utilisation axis
 

@@ -9,7 +9,7 @@ from matplotlib.figure import Figure
 from contact.arrays import Array
 from contact.errors import ContactError
 from contact.plot.style import DPI, FAINT, INK, MM, colour_map, looks, nice, style
-from contact.solution import Solution
+from contact.results import Solution
 from contact.stress import SurfaceLoad, at, below, largest
 from contact.stress.field import CRITERIA, Peak
 

@@ -18,7 +18,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from contact.arrays import Array, require_numbers
 from contact.errors import ContactError, require_number
-from contact.solution import Solution
+from contact.results import Solution
 from contact.stress.field import Peak
 from contact.stress.half_space import below
 from contact.stress.load import SurfaceLoad

@@ -11,10 +11,10 @@ from numpy.typing import ArrayLike
 from contact.arrays import Array, broadcast, require_numbers
 from contact.errors import ContactError, require_number
 from contact.halfspace.influence import fast_length
+from contact.inputs.material import STEEL
+from contact.inputs.plausibility import doubt_combined
 from contact.kernels.stress.below import N_LOADS, N_STRESSES, stresses_at
-from contact.material import STEEL
-from contact.plausibility import doubt_combined
-from contact.solution import Solution
+from contact.results import Solution
 from contact.stress.field import Peak, StressField, require_criterion
 from contact.stress.load import SurfaceLoad
 from contact.stress.response import Grid, stresses

@@ -14,8 +14,8 @@ from contact.halfspace.gap import even
 from contact.halfspace.solution import GridSolution
 from contact.kernels.arrays import LoadGrid, PatchFields
 from contact.kernels.stress.load import add_load, place_centres, scale_load
-from contact.solution import Solution
-from contact.solution.pressure import limit_of, strips_of
+from contact.results import Solution
+from contact.results.pressure import limit_of, strips_of
 
 #: Elements along each side of the box around the patch onto which a solution on strips is put.
 N_SIDE = 64

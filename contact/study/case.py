@@ -5,10 +5,10 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any
 
-from contact.creepage import Creepage
 from contact.errors import ContactError
-from contact.material import STEEL, Material
-from contact.separation import Separation
+from contact.inputs.creepage import Creepage
+from contact.inputs.material import STEEL, Material
+from contact.inputs.separation import Separation
 
 
 @dataclass(frozen=True)

@@ -8,11 +8,11 @@ from dataclasses import replace
 from time import perf_counter
 from typing import Any
 
-from contact.creepage import Creepage
 from contact.errors import ContactError, require_integer
 from contact.halfspace.gap import least
-from contact.separation import Separation
-from contact.solution import Solution
+from contact.inputs.creepage import Creepage
+from contact.inputs.separation import Separation
+from contact.results import Solution
 from contact.solve import solve
 from contact.study.case import Case
 from contact.study.comparison import Comparison

@@ -7,7 +7,7 @@ from collections.abc import Iterable, Sequence
 from dataclasses import asdict, dataclass
 from typing import TYPE_CHECKING, Any, ClassVar
 
-from contact.solution import Solution
+from contact.results import Solution
 from contact.study.case import Case
 from contact.study.files import csv_of
 from contact.study.pairs import REFERENCE, Pair

@@ -8,10 +8,10 @@ from collections.abc import Callable, Iterator
 from concurrent.futures import ProcessPoolExecutor
 from pathlib import Path
 
-from contact.creepage import Creepage
 from contact.errors import ContactError
 from contact.forces import cores
-from contact.material import Material
+from contact.inputs.creepage import Creepage
+from contact.inputs.material import Material
 from contact.solve import solve
 from contact.study.ellipse import ellipse
 from contact.theory import force_table as table

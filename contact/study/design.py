@@ -18,7 +18,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from contact.arrays import Array
-from contact.material import Material
+from contact.inputs.material import Material
 
 LOAD, FRICTION, MATERIAL = 82e3, 0.3, Material(shear_modulus=82e9, poisson_ratio=0.28)
 #: a [m], b [m] and rho [m], the length that makes creepages dimensionless.

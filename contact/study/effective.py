@@ -9,15 +9,16 @@ from pathlib import Path
 
 import numpy as np
 
-from contact import friction, workspace
+from contact import friction
 from contact.arrays import Array
-from contact.case import cases, set_surface
 from contact.errors import ContactError
+from contact.instance import workspace
+from contact.instance.case import cases, set_surface
+from contact.instance.ownership import OwnsArrays, one_thread
 from contact.kernels.pipeline import press_case, set_rolling
 from contact.kernels.records import RESULT
 from contact.kernels.rows import Strip
 from contact.kernels.tangential.fastrip_mapped import roll_patch, set_shapes
-from contact.ownership import OwnsArrays, one_thread
 from contact.registry import lookup
 from contact.study import creep_table
 from contact.study.ellipse import ellipse

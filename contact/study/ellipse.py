@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import math
 
-from contact.material import STEEL, Material
-from contact.separation import Separation
+from contact.inputs.material import STEEL, Material
+from contact.inputs.separation import Separation
 from contact.theory.hertz import hertz
 
 

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from contact.arrays import as_array
-from contact.solution import Solution
+from contact.results import Solution
 
 
 @dataclass(frozen=True, slots=True)

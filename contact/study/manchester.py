@@ -19,7 +19,7 @@ from contact.errors import ContactError
 from contact.geometry import profile
 from contact.geometry.records import Patch, Pose, Velocity
 from contact.geometry.wheelset import Pair as WheelOnRail
-from contact.solution import Solution
+from contact.results import Solution
 from contact.solve import solve
 from contact.study.case import Case
 from contact.study.compare import REFERENCE_ELEMENTS, Progress, compare

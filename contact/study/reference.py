@@ -13,10 +13,10 @@ from typing import Any
 import numpy as np
 
 from contact.arrays import Array
-from contact.creepage import Creepage
 from contact.errors import ContactError
 from contact.forces import cores
-from contact.separation import Separation
+from contact.inputs.creepage import Creepage
+from contact.inputs.separation import Separation
 from contact.solve import solve
 from contact.study.design import ELLIPSES, FRICTION, LOAD, MATERIAL, Design
 from contact.study.ellipse import ellipse

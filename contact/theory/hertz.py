@@ -6,8 +6,8 @@ import math
 from dataclasses import dataclass
 
 from contact.errors import ContactError, require_number
+from contact.inputs.material import STEEL, Material
 from contact.kernels.hertz import coefficients, local_factors
-from contact.material import STEEL, Material
 
 __all__ = ["HertzContact", "hertz", "local_factors"]
 

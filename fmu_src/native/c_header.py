@@ -15,14 +15,14 @@ import numpy as np
 from contact.damage import DamageParameters
 from contact.friction import as_friction
 from contact.geometry.wheelset import TAPE_FROM_FLANGE_BACK
+from contact.inputs.material import STEEL
+from contact.inputs.plausibility import USUAL
 from contact.kernels import records
 from contact.kernels.enumerations import FrictionLaw, Height, LoadKind, SlipVelocity, Status, WearLaw
 from contact.kernels.given_force import LATERAL, LONGITUDINAL
 from contact.kernels.normal.strip_halfspace import MAX_ITERATIONS
 from contact.kernels.records import MOTION
 from contact.kernels.rows import Bin, Field, Strip
-from contact.material import STEEL
-from contact.plausibility import USUAL
 from contact.registry import DEFAULT_NORMAL, DEFAULT_TANGENTIAL, methods
 
 PATH = Path(__file__).parents[2] / "contact" / "include" / "wheelrail_records.h"
@@ -141,7 +141,7 @@ def _surface_defaults() -> str:
 
 
 def _doubts() -> str:
-    """Return the rules of `contact.plausibility` as bits, with their limits and texts."""
+    """Return the rules of `contact.inputs.plausibility` as bits, with their limits and texts."""
     names = {name: re.sub(r"\W", "_", name).upper() for name in USUAL}
     values = "\n".join(f"    WR_DOUBT_{c_name} = {1 << k}," for k, c_name in enumerate(names.values()))
     rows = " \\\n".join(

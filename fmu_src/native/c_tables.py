@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from contact import workspace
+from contact.instance import workspace
 from contact.theory import force_table, kalker
 
 

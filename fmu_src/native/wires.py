@@ -10,7 +10,7 @@ import numpy as np
 from numba import carray
 
 import contact
-from contact import material
+from contact.inputs import material
 from contact.kernels.arrays import Size
 from contact.kernels.records import CASE
 from ..variables import Table, identifier

@@ -1,7 +1,7 @@
 """Friction of an FMU from the rows `friction.…` and `thermal.…`."""
 
 from contact.friction import LAWS, VELOCITIES, Friction
-from contact.material import Thermal
+from contact.inputs.material import Thermal
 from ..tables.solver import FRICTION, THERMAL
 from .values import SlaveValues
 

@@ -9,12 +9,13 @@ from typing import Any
 import numpy as np
 from pythonfmu.enums import Fmi2Status
 
-from contact import Material, Status, workspace
+from contact import Material, Status
 from contact.damage import WEAR_LAWS, DamageParameters
 from contact.geometry.flexible import WheelOffset
 from contact.geometry.profile import Profile
 from contact.geometry.records import Irregularity, Pose, Velocity
 from contact.geometry.wheelset import Pair
+from contact.instance import workspace
 from contact.pair import Contact, ElasticRail, WheelRailPair
 from .. import profiles
 from ..tables.solver import DAMAGE_OUTPUTS

@@ -7,8 +7,8 @@ from dataclasses import replace
 
 import contact
 from contact import Status, friction, registry
+from contact.inputs.material import THERMAL_RANGE, Thermal
 from contact.kernels.normal.strip_halfspace import MAX_ITERATIONS
-from contact.material import THERMAL_RANGE, Thermal
 from contact.solver import N_ELEMENTS, N_STRIPS
 from ..variables import Enumeration, Variable, output, parameter
 

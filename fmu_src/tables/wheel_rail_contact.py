@@ -8,9 +8,9 @@ from functools import cache
 from typing import Unpack
 
 from contact import friction
-from contact.creepage import LARGEST_CREEPAGE
+from contact.inputs.creepage import LARGEST_CREEPAGE
+from contact.inputs.separation import LARGEST_ROLLING, LARGEST_TILT
 from contact.kernels.records import MAX_PATCHES
-from contact.separation import LARGEST_ROLLING, LARGEST_TILT
 from ..variables import Attributes, Enumeration, Table, Variable, output, parameter, signal
 from . import solver
 

@@ -8,8 +8,8 @@ from dataclasses import MISSING, fields, is_dataclass
 from os import PathLike
 from typing import Any, Literal, TypeVar, Union, get_args, get_origin, get_type_hints
 
-from contact import text
 from contact.errors import ContactError, suggestion
+from contact.reading import text
 
 Kind = TypeVar("Kind")
 

@@ -13,7 +13,7 @@ import numpy as np
 
 from contact.errors import ContactError, require_number
 from contact.geometry.profile import Profile
-from contact.material import STEEL
+from contact.inputs.material import STEEL
 from . import scenario
 from .declared import build, read_table
 from .flange import Flange

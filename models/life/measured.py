@@ -7,8 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from contact.arrays import Array
-from contact.columns import table
 from contact.errors import ContactError, require_number, suggestion
+from contact.reading.columns import table
 from .spectra import CHANNELS
 
 RAIL_DISTANCE = 1.5  # distance of the rails' centres, over which cant and cross-level are measured [m]

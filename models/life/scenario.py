@@ -18,7 +18,7 @@ from contact.friction import Friction, as_friction
 from contact.geometry import profile
 from contact.geometry.profile import Kind, Profile
 from contact.geometry.surfaces import WheelSurface
-from contact.material import STEEL, Material
+from contact.inputs.material import STEEL, Material
 from contact.registry import DEFAULT_NORMAL, DEFAULT_TANGENTIAL, lookup
 from contact.solver import N_ELEMENTS, N_STRIPS, require_resolution
 from ..vehicle.declared import VehicleDeclaration

@@ -11,8 +11,8 @@ import numpy as np
 from contact.arrays import Array
 from contact.core import pack
 from contact.errors import ContactError
+from contact.instance.ownership import OwnsArrays, one_thread
 from contact.kernels.arrays import Motions
-from contact.ownership import OwnsArrays, one_thread
 from .kernels import motion
 from .kernels.frames import speed_at
 from .kernels.layout import Book, Model, Scratch, State

@@ -8,8 +8,8 @@ from collections.abc import Sequence
 import numpy as np
 
 from contact.core import pack
+from contact.instance.ownership import OwnsArrays, one_thread
 from contact.kernels.arrays import Bench, Search
-from contact.ownership import OwnsArrays, one_thread
 from .kernels import crew, motion
 from .kernels.benches import Benches
 from .kernels.layout import Model, Scratch, State

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 
-from contact import workspace
 from contact.accumulation import MAXIMA, SUMS, Histogram
+from contact.inputs.material import Material
+from contact.instance import workspace
 from contact.kernels.memory import Ledger
-from contact.material import Material
 from .kernels.benches import Benches, bins
 
 BODIES = ("wheel", "rail")

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from contact.notebook import Sketch, beside, table
+from contact.view.notebook import Sketch, beside, table
 
 if TYPE_CHECKING:
     from .run import VehicleRun

@@ -9,7 +9,6 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from contact import workspace
 from contact.arrays import Array
 from contact.damage import DamageParameters
 from contact.errors import ContactError, require_number
@@ -17,11 +16,12 @@ from contact.friction import Friction, as_friction
 from contact.geometry.profile import Profile
 from contact.geometry.surfaces import SurfacePair, WheelSurface
 from contact.geometry.wheelset import Pair, Pose, Velocity
+from contact.inputs.material import STEEL, Material
+from contact.instance import workspace
+from contact.instance.ownership import OwnsArrays, one_thread
 from contact.kernels.enumerations import Height
 from contact.kernels.memory import Ledger
 from contact.kernels.records import GIVEN
-from contact.material import STEEL, Material
-from contact.ownership import OwnsArrays, one_thread
 from contact.pair import WheelRailPair
 from contact.registry import DEFAULT_NORMAL, DEFAULT_TANGENTIAL
 from contact.solver import N_ELEMENTS, N_STRIPS

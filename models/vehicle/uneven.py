@@ -15,8 +15,8 @@ import numpy as np
 from contact.arrays import Array
 from contact.core import pack
 from contact.geometry.surfaces import SurfacePair
+from contact.instance.ownership import OwnsArrays, one_thread
 from contact.kernels.arrays import Bench, Motions, Search, SurfaceSearch
-from contact.ownership import OwnsArrays, one_thread
 from contact.pair import WheelRailPair
 from .kernels import motion, wheels
 from .kernels.benches import Benches

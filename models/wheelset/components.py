@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike
 import contact
 from contact.arrays import Array, as_array
 from contact.errors import ContactError
-from contact.material import Material
+from contact.inputs.material import Material
 from .model import WheelsetModel
 from .parameters import WheelsetParameters
 from .ports import CREEPAGE, CURVATURE, GAP, LOAD, POINTS, REPORT, SIDES

@@ -20,7 +20,7 @@ from contact.arrays import Array
 from contact.cli import options as opt
 from contact.cli.output import deliver, drawing, reported, stop
 from contact.geometry.wheelset import Pair, Pose
-from contact.solution import Solution
+from contact.results import Solution
 from . import master
 from .components import Component, DirectContact, SolveOptions, direct
 from .master import History, Scheme

@@ -27,7 +27,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from contact.arrays import Array
 from contact.errors import ContactError, require_number
-from contact.notebook import Sketch, beside, table
+from contact.view.notebook import Sketch, beside, table
 from .components import Component
 from .iteration import fixed_point
 from .ports import CREEPAGE, ENERGY, FRAME, LOAD, MOTION, PROBLEM, REACTION, REPORT, SIDES

@@ -11,8 +11,8 @@ from contact.arrays import Array
 from contact.core import pack
 from contact.errors import ContactError, require_number
 from contact.geometry.wheelset import Pair
+from contact.instance.ownership import OwnsArrays, one_thread
 from contact.kernels.records import GIVEN
-from contact.ownership import OwnsArrays, one_thread
 from . import dynamics, motion
 from .parameters import WheelsetParameters
 from .ports import POINTS, SIDES

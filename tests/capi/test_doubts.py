@@ -11,7 +11,7 @@ from contact.errors import PlausibilityWarning, silent
 from contact.geometry import profile
 from contact.geometry.wheelset import Pair as Profiles
 from contact.geometry.wheelset import Pose, Velocity
-from contact.plausibility import USUAL, doubt_case, doubt_value
+from contact.inputs.plausibility import USUAL, doubt_case, doubt_value
 from tests.capi.library import Library, Pair, Patch
 
 SIZES = 10.0 ** np.arange(-4.0, 5.0)  # factors on usual values

@@ -211,5 +211,5 @@ def test_a_library_of_another_version_is_named(monkeypatch):
 
 def test_the_library_holds_the_constants_that_numba_computes(tmp_path):
     """Python reads the influence of strips from the library; a process with numba computes it."""
-    code = "from contact import workspace; print([part.tobytes().hex()[:4000] for part in workspace.strip_tables()])"
+    code = "from contact.instance import workspace; print([part.tobytes().hex()[:4000] for part in workspace.strip_tables()])"
     assert run(code).stdout == run(code, CONTACT_JIT="1").stdout != ""

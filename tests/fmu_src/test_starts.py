@@ -7,7 +7,7 @@ import pytest
 
 from contact.errors import ContactError
 from contact.friction import Friction
-from contact.material import Thermal
+from contact.inputs.material import Thermal
 from fmu_src import starts
 from fmu_src.catalogue import models, vehicles
 from fmu_src.native.table import content

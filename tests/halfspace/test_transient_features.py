@@ -8,6 +8,7 @@ import pytest
 import contact
 from contact.halfspace import Gap, LocalLaw, Transient
 from contact.halfspace.local_law import Warmth
+from contact.inputs.material import Thermal
 
 #: Radius of the elements' borders, half curvature and load of the ball of the input file cattaneo (units of that file: mm, N).
 BALL = contact.Material(200e6, 0.42)
@@ -215,14 +216,14 @@ def test_friction_over_the_temperature_is_that_of_the_steady_half_space():
     )
     both = {"normal": "halfspace", "tangential": "halfspace", "speed": 30.0}
     steady = contact.solve(gap, creepage, load=1e5, friction=friction, **both)
-    warmth = Warmth(-0.18, 293.15, 400.0, 293.15, contact.material.Thermal())
+    warmth = Warmth(-0.18, 293.15, 400.0, 293.15, Thermal())
     hot = Transient(gap, load=1e5, friction=LocalLaw(0.3, warmth=warmth), speed=30.0)
     found = hot.roll_on(creepage)
     assert found.Fx == pytest.approx(steady.Fx, rel=2e-3)
     assert -found.Fx < 0.95 * 0.3e5
     with pytest.raises(contact.ContactError, match="a step follows no temperature"):
         hot.roll(creepage, distance=0.5e-3)
-    rising = LocalLaw(0.3, warmth=Warmth(0.1, 293.15, 400.0, 293.15, contact.material.Thermal()))
+    rising = LocalLaw(0.3, warmth=Warmth(0.1, 293.15, 400.0, 293.15, Thermal()))
     assert -Transient(gap, load=1e5, friction=rising, speed=30.0).roll_on(creepage).Fx > 0.3e5
 
 

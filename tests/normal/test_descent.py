@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from contact import workspace
+from contact.instance import workspace
 from contact.kernels.normal import influence
 from contact.kernels.normal.descent import FEWEST, MOST, N_LAYERS, descend, has_one_run
 from contact.kernels.normal.elimination import eliminate

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from contact import workspace
+from contact.instance import workspace
 from contact.kernels.normal.influence import anywhere
 from contact.kernels.normal.many_strips import displacement, fill_ln_X
 from contact.kernels.rows import Pair

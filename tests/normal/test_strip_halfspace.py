@@ -7,8 +7,8 @@ import pytest
 from scipy.integrate import quad
 
 import contact
-from contact import workspace
 from contact.geometry import profile, wheelset
+from contact.instance import workspace
 from contact.kernels.normal import influence
 from contact.kernels.normal.panels import half_lengths
 from contact.kernels.normal.start import MEM_LN_A

@@ -3,14 +3,14 @@
 import numpy as np
 import pytest
 
-from contact import workspace
-from contact.case import cases
+from contact.inputs.material import STEEL
+from contact.instance import workspace
+from contact.instance.case import cases
 from contact.kernels.arrays import Samples
 from contact.kernels.normal.tangent import follow, linearise
 from contact.kernels.pipeline import press_case
 from contact.kernels.records import RESULT
 from contact.kernels.rows import Strip
-from contact.material import STEEL
 from contact.registry import lookup
 
 N = 20

@@ -6,12 +6,12 @@ import numpy as np
 import pytest
 
 import contact
-from contact import workspace
 from contact.accumulation import MAXIMA, SUMS, Histogram
 from contact.damage import WEAR_LAWS, DamageParameters
 from contact.errors import ContactError
 from contact.geometry import profile
 from contact.geometry.wheelset import Pair, Pose, Velocity
+from contact.instance import workspace
 from contact.kernels.rows import Bin, Body
 from contact.pair import WheelRailPair
 

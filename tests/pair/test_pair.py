@@ -369,7 +369,7 @@ def test_the_patches_share_T_gamma_and_damage_has_the_names_of_a_solution():
     [
         ((WHEEL,), {}, r"pair = Profile.* is no contact.geometry.wheelset.Pair; make one"),
         ((None,), {}, r"pair = None is no"),
-        ((Pair(WHEEL, RAIL),), {"material": 2e11}, r"material = .* is no contact.material.Material"),
+        ((Pair(WHEEL, RAIL),), {"material": 2e11}, r"material = .* is no contact.inputs.material.Material"),
         ((Pair(WHEEL, RAIL),), {"damage": "archard"}, "damage = 'archard' is no"),
     ],
 )

@@ -11,7 +11,7 @@ from contact_case import CREEPAGES
 import contact
 from contact.damage import evaluate
 from contact.friction import LAWS, VELOCITIES, Friction
-from contact.material import Thermal
+from contact.inputs.material import Thermal
 
 METHODS = contact.methods().batched
 #: Outputs after one step of STEP, without the creep stiffness.

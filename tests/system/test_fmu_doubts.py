@@ -8,8 +8,8 @@ from fmu_instance_fmi3 import Instance3
 from contact.errors import PlausibilityWarning
 from contact.geometry import profile
 from contact.geometry.wheelset import Pair, Pose, Velocity
+from contact.inputs.plausibility import USUAL
 from contact.pair import WheelRailPair
-from contact.plausibility import USUAL
 
 #: Inputs of a pair, and what is said of them.
 PAIR = [

@@ -7,6 +7,7 @@ import pytest
 
 import contact
 import reference
+from contact.instance import workspace
 from contact.kernels.tangential import table as kernel
 from contact.study import creep_table
 from contact.theory import force_table as table
@@ -105,7 +106,7 @@ def test_the_file_is_read_when_it_is_asked_for():
     """By the default too, since its effective creepages are in the same array; not by the methods of the thesis."""
     batched = contact.methods().batched
     for name, method in batched.tangential.items():
-        arrays = contact.workspace.allocate(batched.normal["analyn"], method, 0.28, (4, 4, 4))
+        arrays = workspace.allocate(batched.normal["analyn"], method, 0.28, (4, 4, 4))
         shape = kernel.SHAPE if name in ("fastrip_mapped", "table") else (1,) * 5
         assert arrays.tables.creep.shape == shape, name
 

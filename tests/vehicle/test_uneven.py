@@ -10,7 +10,7 @@ from contact.accumulation import Histogram
 from contact.errors import ContactError
 from contact.geometry import profile
 from contact.geometry.surfaces import Flat, WheelSurface
-from contact.workspace import closed_ledger
+from contact.instance.workspace import closed_ledger
 from fmu_src import catalogue
 from models.life import declared_set, result
 from models.life.scenario import read as read_scenario

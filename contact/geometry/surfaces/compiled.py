@@ -6,10 +6,10 @@ import math
 
 import numpy as np
 
-from contact import workspace
 from contact.arrays import Array
 from contact.errors import ContactError
 from contact.geometry.surfaces.surface import RailSurface, WheelSurface
+from contact.instance import workspace
 from contact.kernels import arrays
 from contact.kernels.geometry.regions import FARTHEST
 

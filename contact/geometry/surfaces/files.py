@@ -31,7 +31,7 @@ from contact.errors import ContactError, ProfileWarning, warn
 from contact.geometry.files import UNITS
 from contact.geometry.formats import Choice, columns, simpack
 from contact.geometry.surfaces.surface import MOST_SLICES, RailSurface, WheelSurface
-from contact.text import lines_of
+from contact.reading.text import lines_of
 
 Rail = TypeVar("Rail", bound=RailSurface)
 Wheel = TypeVar("Wheel", bound=WheelSurface)

@@ -9,9 +9,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from contact import workspace
 from contact.arrays import Array
-from contact.creepage import Creepage
 from contact.errors import ContactError, require_number
 from contact.geometry.posed import Posed, Side
 from contact.geometry.records import Irregularity, Pose, Velocity
@@ -23,14 +21,16 @@ from contact.geometry.wheelset import TAPE_FROM_FLANGE_BACK, place_of_rail
 from contact.given_force import rising_root
 from contact.halfspace.gap import Division, Gap
 from contact.halfspace.norm import norm
+from contact.inputs.creepage import Creepage
+from contact.inputs.material import STEEL, Material
+from contact.instance import workspace
+from contact.instance.ownership import one_thread, within
 from contact.kernels.enumerations import Height
 from contact.kernels.geometry.elements import fill_distance, find
 from contact.kernels.geometry.prepare import move
 from contact.kernels.geometry.section import AWAY
 from contact.kernels.geometry.settle import DEEPEST
 from contact.kernels.records import MAX_PATCHES, SLOWEST
-from contact.material import STEEL, Material
-from contact.ownership import one_thread, within
 
 Range = tuple[float, float, float, float]
 

@@ -104,7 +104,7 @@ def begin(problem, n_panels, most, state):
 
 @kernel
 def _note(problem, state, error, moved, approach, n_panels):
-    """Keep what an iteration found, for who wants to see it (`contact.trace`)."""
+    """Keep what an iteration found, for who wants to see it (`contact.view.trace`)."""
     iterates, panels = problem.own.space.iterates, problem.panels
     row = iterates[min(state.number, iterates.shape[0] - 1)]
     row[Iterate.ERROR], row[Iterate.MOVED], row[Iterate.APPROACH] = error, moved, approach

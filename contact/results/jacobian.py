@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from contact.errors import ContactError
-from contact.notebook import table
+from contact.view.notebook import table
 
 _UNITS = {
     "Fx": "N",

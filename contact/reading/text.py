@@ -1,6 +1,6 @@
 """Text of files as it comes: usual encodings, typographic signs. Files that hold no text are named.
 
-One reader serves profiles, signals over time, series of a track, tables of cases and TOML. `contact.columns` finds the numbers.
+One reader serves profiles, signals over time, series of a track, tables of cases and TOML. `columns` finds the numbers.
 """
 
 from __future__ import annotations

@@ -11,10 +11,10 @@ from numpy.typing import ArrayLike, NDArray
 from contact.arrays import as_array
 from contact.core import Packed
 from contact.errors import ContactError, require_number
+from contact.inputs.plausibility import doubt_value
 from contact.kernels.arrays import Samples
 from contact.kernels.separation import HERTZIAN_POINTS, fill_hertzian
-from contact.notebook import Sketch
-from contact.plausibility import doubt_value
+from contact.view.notebook import Sketch
 
 #: Largest slope of the surface [-], and largest rolling [1/m], which is that of a wheel with a radius of 1 mm.
 LARGEST_TILT, LARGEST_ROLLING = 1e3, 1e3

@@ -1,4 +1,4 @@
-"""Results as tables of pandas and xarray, with named axes and units (`contact.units`)."""
+"""Results as tables of pandas and xarray, with named axes and units (`contact.view.units`)."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from typing import Any, NamedTuple, Self
 import numpy as np
 from numpy.typing import NDArray
 
-from contact.units import UNITS
+from contact.view.units import UNITS
 
 Values = NDArray[Any]
 
@@ -23,7 +23,7 @@ class Table(NamedTuple):
     axes : name of each axis → the values along it
     columns : name → values over all axes, or over the first ones
     beside : the same, of what is no result but tells where it belongs
-    units : units of names that have another one here than in `contact.units`
+    units : units of names that have another one here than in `contact.view.units`
     attributes : what holds for the whole table
     """
 

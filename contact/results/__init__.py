@@ -1,7 +1,7 @@
 """What the solvers return: `Solution` with the fields of one patch, `Forces` of arrays of cases, `Jacobian`."""
 
-from contact.solution.jacobian import Jacobian, PairJacobian
-from contact.solution.resultants import CaseForces, Forces
-from contact.solution.solution import BEND, Prepared, Solution, Status, Strips
+from contact.results.jacobian import Jacobian, PairJacobian
+from contact.results.resultants import CaseForces, Forces
+from contact.results.solution import BEND, Prepared, Solution, Status, Strips
 
 __all__ = ["BEND", "CaseForces", "Forces", "Jacobian", "PairJacobian", "Prepared", "Solution", "Status", "Strips"]

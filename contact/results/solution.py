@@ -13,20 +13,20 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from contact.arrays import Array
-from contact.creepage import Creepage
 from contact.damage import Damage, evaluate
 from contact.errors import only_with_fields
+from contact.inputs.creepage import Creepage
+from contact.inputs.material import Material
 from contact.kernels.arrays import Workspace
 from contact.kernels.enumerations import Status
 from contact.kernels.friction import of_case
 from contact.kernels.records import CASE, RESULT
 from contact.kernels.rows import Field, Strip
-from contact.material import Material
-from contact.notebook import beside, table
 from contact.registry import methods
-from contact.solution.jacobian import Jacobian
-from contact.solution.pressure import pressure_at, sketch
-from contact.tables import Table, Tabular
+from contact.results.jacobian import Jacobian
+from contact.results.pressure import pressure_at, sketch
+from contact.view.notebook import beside, table
+from contact.view.tables import Table, Tabular
 
 Records = NDArray[np.void]
 

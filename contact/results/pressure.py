@@ -11,10 +11,10 @@ from numpy.typing import ArrayLike
 from contact.arrays import Array, broadcast, require_numbers
 from contact.kernels.arrays import PatchStrips
 from contact.kernels.stress.load import add_pressures
-from contact.notebook import Sketch
+from contact.view.notebook import Sketch
 
 if TYPE_CHECKING:
-    from contact.solution.solution import Solution, Strips
+    from contact.results.solution import Solution, Strips
 
 
 def pressure_at(solution: Solution, x: ArrayLike, y: ArrayLike) -> Array:

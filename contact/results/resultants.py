@@ -8,8 +8,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from contact.kernels.enumerations import Status
-from contact.solution.jacobian import Jacobian
-from contact.tables import ArrayOfResults
+from contact.results.jacobian import Jacobian
+from contact.view.tables import ArrayOfResults
 
 Numbers = float | NDArray[np.float64]
 

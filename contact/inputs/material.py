@@ -6,7 +6,7 @@ import math
 from dataclasses import dataclass
 
 from contact.errors import require_number
-from contact.plausibility import doubt_value
+from contact.inputs.plausibility import doubt_value
 
 
 @dataclass(frozen=True, slots=True)

@@ -6,9 +6,9 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from contact.friction import Friction
+from contact.inputs.material import Material
 from contact.kernels.normal.strip_halfspace import MAX_ITERATIONS
 from contact.kernels.records import CASE
-from contact.material import Material
 from contact.registry import Method
 
 Cases = NDArray[np.void]

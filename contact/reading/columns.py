@@ -16,7 +16,7 @@ import numpy as np
 
 from contact.arrays import Array
 from contact.errors import ContactError
-from contact.text import lines_of
+from contact.reading.text import lines_of
 
 LARGEST_SERIES = 200e6  # bytes
 _SHOWN = 60  # letters of a line in a message

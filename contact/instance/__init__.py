@@ -1,0 +1,1 @@
+"""Memory and records that the kernels fill; objects that own such memory."""

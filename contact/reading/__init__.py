@@ -1,0 +1,1 @@
+"""Text and numbers of files as they come: encodings, separators, headings."""

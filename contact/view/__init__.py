@@ -1,0 +1,1 @@
+"""Results as tables, units, HTML and text. Pictures are in `contact.plot`."""
