@@ -8,14 +8,15 @@ from typing import Any
 
 import numpy as np
 
-from contact.arrays import Array
 from contact.friction import Friction
 from contact.geometry.records import Irregularity, Pose, Velocity
+from contact.geometry.shape import Profile
 from contact.geometry.surfaces import SurfacePair, SurfacePatch
 from contact.halfspace import GridSolution
 from contact.inp import bodies, fast
 from contact.inp.case import Case
 from contact.inp.grid import material
+from contact.inp.mesh import Wheel, flattened, turned
 from contact.inp.reasons import refuse, require_digits
 from contact.inp.results import PatchResult, Result
 from contact.inp.single import layer
@@ -56,9 +57,13 @@ class _FilePair(HalfspacePair):
     """A pair that takes friction and creepages of a patch as the file gives them."""
 
     case: Case
+    pose: Pose
+    wheel: Wheel | None = None  # of revolution
 
     def _solved(self, patch: SurfacePatch, velocity: Velocity, friction: float | Friction) -> Solved:
         case = self.case
+        if self.wheel is not None:
+            patch = flattened(patch, self.pair, self.pose, self.wheel, case["DS"])
         c, ratio = patch.creepage, velocity.forward / _mean_speed(patch, velocity)
         creepage = Creepage(c.longitudinal * ratio, c.lateral * ratio, c.spin * ratio)
         found = solve_contact(
@@ -120,12 +125,12 @@ class PairRunner:
         """Return the result of a case."""
         require_supported(case, self._fast)
         pair = self._prepared(case)
-        if isinstance(pair, _FilePair):
-            pair.case = case
         pose = Pose(case["Y_WS"], case.get("Z_WS", 0.0) if case.digits["N"] == 0 else 0.0, case["ROLL"], case["YAW"])
         velocity = Velocity(*(case[name] for name in ("VS", "VY", "VZ", "VROLL", "VYAW", "VPITCH")))
         if not velocity.forward > 0.0:
             raise refuse(case, "input", f"VS = {velocity.forward:g}; allowed: positive")
+        if isinstance(pair, _FilePair):
+            pair.case, pair.pose = case, pose
         rail = Irregularity(*(case[name] for name in _DEVIATIONS))
         amount: dict[str, Any] = {}
         if case.digits["N"] == 1:
@@ -158,6 +163,8 @@ class PairRunner:
             else:
                 self._pair = _FilePair(made)
                 self._pair.pair.division = bodies.Centred(*made.division)
+                profile = bodies.body(case, "W")
+                self._pair.wheel = Wheel.of(profile, case["NOMRADW"]) if isinstance(profile, Profile) else None
             self._key = key
         return self._pair
 
@@ -178,21 +185,13 @@ def _result(case: Case, found: PairSolution, velocity: Velocity) -> Result:
     """Return the result in CONTACT's signs."""
     force = -np.asarray(found.force)  # on the rail
     roll, yaw = case["ROLL"], case["YAW"]
-    turned = _turn(roll, yaw).T @ force
+    in_wheelset = turned(roll, yaw).T @ force
     values = dict(zip(("FX(TR)", "FY(TR)", "FZ(TR)"), map(float, force), strict=True))
-    values |= dict(zip(("FX(WS)", "FY(WS)", "FZ(WS)"), map(float, turned), strict=True))
+    values |= dict(zip(("FX(WS)", "FY(WS)", "FZ(WS)"), map(float, in_wheelset), strict=True))
     values["Z_WS"] = found.z
     mirror = 1.0 if case.digits["C1"] in (1, 5) else -1.0
     patches = tuple(_patch(case, each, velocity, mirror) for each in found.contacts if each.N > 0.0)
     return Result(case, patches, values, fast.in_words(found.status, found.gap_error))
-
-
-def _turn(roll: float, yaw: float) -> Array:
-    """Return the matrix from wheelset to track axes: roll about x, then yaw about z."""
-    cr, sr, cy, sy = math.cos(roll), math.sin(roll), math.cos(yaw), math.sin(yaw)
-    about_x = np.array([[1.0, 0.0, 0.0], [0.0, cr, -sr], [0.0, sr, cr]])
-    about_z = np.array([[cy, -sy, 0.0], [sy, cy, 0.0], [0.0, 0.0, 1.0]])
-    return about_z @ about_x
 
 
 def _patch(case: Case, c: Contact, velocity: Velocity, mirror: float) -> PatchResult:
