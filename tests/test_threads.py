@@ -27,7 +27,7 @@ from contact.geometry import profile
 from contact.geometry.surfaces import Flat, SurfacePair, WheelSurface
 from contact.geometry.wheelset import Pair, Pose, Velocity
 from contact.instance.ownership import OwnsArrays
-from contact.pair import HalfspacePair, RollerRig, WheelRailPair, over_poses, solved
+from contact.pair import HalfspacePair, RollerRig, TransientPair, WheelRailPair, over_poses, solved
 from contact.results import solution as solutions
 from contact.stress import Endurance
 from models.vehicle.coupling import OpenVehicle
@@ -43,9 +43,9 @@ def pair():
     return Pair(WHEEL, RAIL)
 
 
-def surfaces():
+def surfaces(spacing=None):
     flat = WheelSurface.constant(WHEEL, Flat(0.02))
-    return SurfacePair(flat, RAIL, rows=20, columns=20)
+    return SurfacePair(flat, RAIL, rows=20, columns=20, spacing=spacing)
 
 
 def pose(k):
@@ -89,6 +89,11 @@ OWNERS = {
     ),
     "HalfspacePair": Kind(
         lambda: HalfspacePair(surfaces()), lambda o, k: forces(o.solve(pose(10 * k), penetration=1e-4))
+    ),
+    "TransientPair": Kind(
+        lambda: TransientPair(surfaces(spacing=1e-3)),
+        lambda o, k: forces(o.shift(pose(0), Velocity(0.0, spin=1e-6), penetration=1e-4)),
+        stepper=True,
     ),
     "RollerRig": Kind(
         lambda: RollerRig(pair(), 0.5), lambda o, k: forces(o.solve(pose(k), Velocity(20.0), vertical=5e4))

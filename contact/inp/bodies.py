@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 from pathlib import Path
 from typing import Any, cast
 
@@ -11,14 +12,15 @@ import numpy as np
 from contact.arrays import Array
 from contact.errors import ContactError, ProfileWarning, warn
 from contact.geometry import formats, placing
+from contact.geometry.records import Irregularity
 from contact.geometry.shape import Profile
 from contact.geometry.smoothing import filtered
 from contact.geometry.surfaces import RailSurface, SurfacePair, WheelSurface
 from contact.geometry.wheelset import place_of_rail
-from contact.halfspace.gap import MAX_SIDE, Division
 from contact.inp.case import Case
 from contact.inp.grid import material
 from contact.inp.reasons import RefusedError, refuse
+from contact.kernels.records import LARGEST_RAIL_ROLL
 
 _READERS = {".prr": formats.simpack, ".prw": formats.simpack, ".ban": formats.miniprof, ".whl": formats.miniprof}
 _SLICES = (".slcs", ".slcw")
@@ -35,19 +37,22 @@ def pair(case: Case) -> SurfacePair:
         y = case["RAILY0"]
         origin = (y if case.digits["C1"] in (1, 5) else -y), case["RAILZ0"]
     elif isinstance(rail, Profile):
-        origin = place_of_rail(rail, case["GAUGWD"], case["GAUGHT"])
+        rail_y, rail_z = place_of_rail(rail, case["GAUGWD"], case["GAUGHT"])
+        origin = rail_y, 0.0 if is_roller(case) else rail_z
     else:
         raise refuse(case, "input", "GAUGHT > 0 with slices of a rail; allowed: GAUGHT ≤ 0")
     if isinstance(wheel, Profile):
         wheel = WheelSurface([0.0], [wheel], spacing=_PATHS, name=wheel.name)
-    if isinstance(rail, Profile):
-        rail = RailSurface([0.0], [rail], spacing=_PATHS, name=rail.name)
+    if is_roller(case):
+        rail = RailSurface.roller(roller(case), case["NOMRADR"], spacing=_PATHS)
+    elif isinstance(rail, Profile):
+        rail = RailSurface([0.0], [_rolled(rail, case)], spacing=_PATHS, name=rail.name)
     return SurfacePair(
         cast(WheelSurface, wheel),
         cast(RailSurface, rail),
         side="right" if case.digits["C1"] in (1, 5) else "left",
         nominal_radius=case["NOMRADW"],
-        flange_back=case["FBDIST"] - 2.0 * case["FBPOS"] - 0.14,
+        tape=0.5 * case["FBDIST"] - case["FBPOS"],
         rail_origin=origin,
         combine_distance=case["D_SEP"],
         spacing=(case["DX"], case["DS"]),
@@ -55,32 +60,55 @@ def pair(case: Case) -> SurfacePair:
     )
 
 
-class Centred(Division):
-    """Division into elements of given size of which one has its centre at the reference point, as CONTACT has them."""
-
-    def centres(self, box: tuple[float, float, float, float]) -> tuple[Array, Array]:
-        """Return x and y [m] of the centres of the elements that cover the box."""
-        assert self.spacing is not None
-        back, front, low, high = box
-        return _around(back, front, self.spacing[0]), _around(low, high, self.spacing[1])
-
-
-def _around(low: float, high: float, step: float) -> Array:
-    first, last = math.floor(low / step), math.ceil(high / step)
-    if last - first > MAX_SIDE - 2:
-        raise ContactError(f"spacing = {step:g} makes {last - first} elements along a side; allowed: {MAX_SIDE - 2}")
-    return np.arange(first, last + 1, dtype=np.float64) * step
-
-
 def key(case: Case) -> tuple[Any, ...]:
     """Return what the pair depends on: cases of equal key share it."""
     names = [
-        *("FBDIST", "FBPOS", "NOMRADW", "GAUGHT", "GAUGWD", "RAILY0", "RAILZ0", "CANT", "D_SEP", "DX", "DS"),
+        *("FBDIST", "FBPOS", "NOMRADW", "GAUGHT", "GAUGWD", "RAILY0", "RAILZ0", "CANT", "NOMRADR", "D_SEP", "DX", "DS"),
         *("POISS1", "POISS2", "GG1", "GG2", "YTAPE"),
     ]
     of_profile = ("FNAME", "MIRRORY", "MIRRORZ", "SCALE", "SMOOTH", "ISMOOTH")
     sides = tuple(case.get(f"{side}{name}") for side in "RW" for name in of_profile)
-    return (case.digits["C1"], *(case.get(name) for name in names), *sides)
+    return (case.digits["C1"], own_roll(case), *(case.get(name) for name in names), *sides)
+
+
+def is_roller(case: Case) -> bool:
+    """Return whether the wheel stands on a roller."""
+    return case.digits["C1"] in (4, 5)
+
+
+def roller(case: Case) -> Profile:
+    """Return the profile of a roller, in its right-side form."""
+    found = body(case, "R")
+    if not isinstance(found, Profile):
+        raise refuse(case, "input", "slices of a roller; allowed: a profile")
+    return _rolled(found, case)
+
+
+def _rolled(profile: Profile, case: Case) -> Profile:
+    return profile.rotated(own_roll(case)) if own_roll(case) else profile
+
+
+def own_roll(case: Case) -> float:
+    """Return the roll [rad] by which the rail's profile is turned for good, in its right-side form.
+
+    That is the whole DROLLR of a roller, which is turned before it is a body of revolution, and of a rail one that is
+    too large for an irregularity; else 0.
+    """
+    roll = float(case["DROLLR"])
+    if not (is_roller(case) or abs(roll) > LARGEST_RAIL_ROLL):
+        return 0.0
+    return roll if case.digits["C1"] in (1, 5) else -roll
+
+
+def turned(case: Case) -> float:
+    """Return the angle by which the rail's profile is turned from the file's, in its right-side form [rad]."""
+    return own_roll(case) - float(0.0 if is_roller(case) else case.get("CANT", 0.0))
+
+
+def irregularity(case: Case) -> Irregularity:
+    """Return the rail's deviations, without a roll that its profile has for good."""
+    found = Irregularity(case["DYRAIL"], case["DZRAIL"], 0.0, *(case[name] for name in ("VYRAIL", "VZRAIL", "VROLLR")))
+    return found if own_roll(case) else replace(found, roll=case["DROLLR"])
 
 
 def has_slices(case: Case) -> bool:
@@ -118,7 +146,7 @@ def body(case: Case, side: str) -> Profile | RailSurface | WheelSurface:
         raise RefusedError("input", message) from None
     y, z, angle = _smoothed(case, side, points)
     profile = Profile(kind, y, z, angle, path.stem)  # type: ignore[arg-type]
-    if side == "R" and case.get("CANT", 0.0) != 0.0:
+    if side == "R" and not is_roller(case) and case.get("CANT", 0.0) != 0.0:
         profile = profile.rotated(-case["CANT"])
     if side == "W" and case["YTAPE"] < 0.999:
         down = float(np.interp(case["YTAPE"], profile.y, profile.z))

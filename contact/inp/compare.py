@@ -69,7 +69,7 @@ def _of_case(result: Result, there: Printed) -> list[Difference]:
         if column.name in _TOTAL_FORCES and column.name in there.values and column.name in result.values and load:
             ours, theirs = result.values[column.name] * column.per_si, there.values[column.name]
             found.append(Difference(case.number, 0, column.name, ours, theirs, abs(ours - theirs) / load))
-    shift = case.module == 3 and case.digits["T"] == 1
+    shift = case.digits["T"] == 1
     for k, (one, other) in enumerate(zip(result.patches, there.patches, strict=False), 1):
         for column in PATCH:
             name = column.name

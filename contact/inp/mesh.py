@@ -18,11 +18,14 @@ from contact.geometry.records import Pose
 from contact.geometry.shape import Profile
 from contact.geometry.surfaces import SurfacePair, SurfacePatch
 from contact.geometry.surfaces.frame import Frame
+from contact.geometry.surfaces.slices import SliceCurve
 from contact.geometry.surfaces.spline import slopes
 from contact.halfspace import Gap
 
 #: Steps of Newton's iteration for the place of an element on the wheel and in the mesh; it moves by less than 1e-12 m.
 _STEPS = 12
+#: Points of a spline for each point of a profile.
+_FINE = 20
 
 
 class Wheel(NamedTuple):
@@ -82,7 +85,7 @@ def flattened(patch: SurfacePatch, pair: SurfacePair, pose: Pose, wheel: Wheel, 
     origin = middle + turn @ np.array([0.0, pair.tape, pair.nominal_radius])
     placed = _Placed(wheel, frame, turn, origin)
     here = turn.T @ (frame.origin - origin)  # the reference point, as the wheel's profile has it
-    reference = wheel.length(float(here[1])), float(here[0])
+    reference = wheel.length(float(here[1])) + _rest(y[0, 0], step), float(here[0]) + _rest(x[0, 0], gap.dx)
     s, u = placed.under(x, y, reference)
     exact = placed.heights(s, u)[..., 2]
     dx = gap.dx
@@ -96,12 +99,37 @@ def flattened(patch: SurfacePatch, pair: SurfacePair, pose: Pose, wheel: Wheel, 
     return replace(patch, gap=Gap(gap.x, gap.y, h + approach), approach=approach)
 
 
+def cornered(patch: SurfacePatch, side: str, roller: Profile) -> SurfacePatch:
+    """Return a patch with CONTACT's roller, which is made of cones between the points of its profile.
+
+    `roller` is the profile in its right-side form, as the pair has it.
+    """
+    mirror = 1.0 if side == "right" else -1.0
+    cosine = math.cos(patch.angle)
+    across = patch.on_rail[0] + mirror * patch.gap.y * cosine
+    exact = SliceCurve(roller, "roller")
+    exact.connect(np.empty(0))
+    fine = exact.at(np.linspace(0.0, exact.length, _FINE * roller.y.size))
+    rising = np.concatenate(([True], np.diff(np.maximum.accumulate(fine[0])) > 0.0))
+    points = np.concatenate(([True], np.diff(np.maximum.accumulate(roller.y)) > 0.0))
+    chord = np.interp(across, roller.y[points], roller.z[points]) - np.interp(across, *fine[:, rising])
+    h = patch.gap.h - patch.approach + cosine * chord[:, None]
+    approach = -float(h.min())
+    return replace(patch, gap=Gap(patch.gap.x, patch.gap.y, h + approach), approach=approach)
+
+
 def turned(roll: float, yaw: float) -> Array:
     """Return the matrix from wheelset to track axes: roll about x, then yaw about z."""
     cr, sr, cy, sy = math.cos(roll), math.sin(roll), math.cos(yaw), math.sin(yaw)
     about_x = np.array([[1.0, 0.0, 0.0], [0.0, cr, -sr], [0.0, sr, cr]])
     about_z = np.array([[cy, -sy, 0.0], [sy, cy, 0.0], [0.0, 0.0, 1.0]])
     return about_z @ about_x
+
+
+def _rest(at: float, step: float) -> float:
+    """Return by how much a place lies beyond the nearest multiple of a step [m]: the mesh has nodes at the elements."""
+    rest = at - round(at / step) * step
+    return rest if abs(rest) > 1e-9 * step else 0.0
 
 
 class _Placed(NamedTuple):

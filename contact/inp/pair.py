@@ -1,4 +1,4 @@
-"""Run cases of module 1: a wheel on a rail, by the half space on the file's elements, or by strips."""
+"""Run cases of module 1: a wheel on a rail or a roller, by the half space on the file's elements, or by strips."""
 
 from __future__ import annotations
 
@@ -9,22 +9,25 @@ from typing import Any
 import numpy as np
 
 from contact.friction import Friction
-from contact.geometry.records import Irregularity, Pose, Velocity
+from contact.geometry.flexible import WheelOffset
+from contact.geometry.records import Pose, Velocity
 from contact.geometry.shape import Profile
 from contact.geometry.surfaces import SurfacePair, SurfacePatch
 from contact.halfspace import GridSolution
-from contact.inp import bodies, fast
+from contact.halfspace.lattice import Lattice
+from contact.inp import bodies, fast, single
 from contact.inp.case import Case
 from contact.inp.grid import material
-from contact.inp.mesh import Wheel, flattened, turned
+from contact.inp.mesh import Wheel, cornered, flattened, turned
 from contact.inp.reasons import refuse, require_digits
 from contact.inp.results import PatchResult, Result
-from contact.inp.single import layer
 from contact.inputs.creepage import Creepage
-from contact.pair.halfspace import HalfspacePair
+from contact.pair.elastic_rail import ElasticRail
+from contact.pair.halfspace import Instant
+from contact.pair.sliding import Roller, Sliding
 from contact.pair.solution import Contact, PairSolution, Solved
+from contact.pair.transient import TransientPair
 from contact.pair.wheel_rail import WheelRailPair
-from contact.solve import solve as solve_contact
 
 _LAWS = {2: ("linear", "FLIN"), 3: ("rational", "FRAT"), 4: ("exponential", "FEXP")}
 
@@ -34,18 +37,18 @@ def require_supported(case: Case, by_strips: bool) -> None:
     require_digits(case, by_strips)
     digits = case.digits
     for reason, wrong, what in (
-        ("flexible wheel", any(case.get(name) for name in _FLEXIBLE), "deviations of E = 4, 5"),
-        ("layer on a pair", digits["M"] == 4 and by_strips, "M = 4"),
+        ("strips", by_strips and digits["T"] in (1, 2), f"T = {digits['T']}"),
+        ("strips", by_strips and digits["C1"] in (4, 5), f"C = {digits['C1']}"),
+        ("strips", by_strips and case["LAW"] == 6, "L = 6"),
+        ("strips", by_strips and case["CURV"] != 0.0, "CURV"),
+        ("layer on strips", digits["M"] == 4 and by_strips, "M = 4"),
         ("damping", digits["M2"] == 2 and any(case[name] for name in ("CDAMPN", "CDAMPT")), "M2 = 2"),
-        ("curve", case["CURV"] != 0.0, "CURV"),
-        ("unlike bodies in a pair", material(case).coupling != 0.0, "K"),
+        ("unlike bodies on strips", by_strips and material(case).coupling != 0.0, "K"),
         ("friction along the profile", case["ROWS"] == 1 and by_strips and _varies(case), "V = 1"),
+        ("force in a shift", digits["T"] == 1 and digits["F"] == 1, "F = 1 with T = 1"),
     ):
         if wrong:
             raise refuse(case, reason, what)
-
-
-_FLEXIBLE = ("DXWHL", "DYWHL", "DZWHL", "DROLLW", "DYAWW", "DPITCHW")
 
 
 def _varies(case: Case) -> bool:
@@ -53,100 +56,125 @@ def _varies(case: Case) -> bool:
     return any(isinstance(case.get(name), tuple) and len(set(case[name])) > 1 for name in names)
 
 
-class _FilePair(HalfspacePair):
-    """A pair that takes friction and creepages of a patch as the file gives them."""
+class _FilePair(TransientPair):
+    """A pair that takes friction, creepages and places of elements as the file and CONTACT give them."""
 
     case: Case
-    pose: Pose
     wheel: Wheel | None = None  # of revolution
+    roller: Profile | None = None  # its profile
 
-    def _solved(self, patch: SurfacePatch, velocity: Velocity, friction: float | Friction) -> Solved:
+    def take(self, case: Case) -> None:
+        """Take what is given besides the motion."""
+        self.case = case
+        self.layer = single.layer(case) if case.digits["T"] else None
+        self.turns = case["MAXOUT"] if self.pair.material.coupling != 0.0 else 1
+
+    def _lattice(self, at: Instant) -> Lattice:
+        if self.case.digits["T"] in (1, 2):
+            return super()._lattice(at)
+        return Lattice.centred(self._spacing)
+
+    def _slide(self, patch: SurfacePatch, at: Instant, **options: Any) -> Sliding:
         case = self.case
+        if self.pair.rail.roller_radius is not None:
+            options["roller"] = Roller(case["NOMRADR"], case["NOMRADR"])
+        return super()._slide(patch, at, curvature=case["CURV"], own_axis=False, **options)
+
+    def _rolling(self, patch: SurfacePatch, at: Instant) -> tuple[Creepage, float]:
+        one = self._slide(patch, at)
+        shift = self.case.digits["T"] == 1
+        if not (one.forwards or shift):
+            raise refuse(self.case, "direction", "rolling towards negative x")
+        speed = one.mean if one.mean > 0.0 and not shift else 1.0
+        return Creepage(one.x / speed, one.y / speed, one.spin / speed), speed
+
+    def _law(self, patch: SurfacePatch, at: Instant) -> Any:
+        return single.law(_at_patch(self.case, patch.angle, self.pair.side), 1, False) if self.case.digits["T"] else 0.0
+
+    def _solved(self, patch: SurfacePatch, at: Instant) -> Solved:
         if self.wheel is not None:
-            patch = flattened(patch, self.pair, self.pose, self.wheel, case["DS"])
-        c, ratio = patch.creepage, velocity.forward / _mean_speed(patch, velocity)
-        creepage = Creepage(c.longitudinal * ratio, c.lateral * ratio, c.spin * ratio)
-        found = solve_contact(
-            patch.gap,
-            creepage,
-            approach=patch.approach,
-            friction=_friction(case, patch, self.pair.side) if case.digits["T"] else 0.0,
-            material=self.pair.material,
-            layer=layer(case) if case.digits["T"] else None,
-            speed=velocity.forward / ratio,
-            throw=False,
-            normal="halfspace",
-            tangential="halfspace",
-        )
-        return Solved(patch, found, patch.frame.axes)
+            patch = flattened(patch, self.pair, self._pose, self.wheel, self.case["DS"])
+        if self.roller is not None:
+            patch = cornered(patch, self.pair.side, self.roller)
+        return super()._solved(patch, at)
+
+    def _pull(self, found: PairSolution) -> float:
+        return float(turned(self.case["ROLL"], self.case["YAW"])[:, 0] @ np.asarray(found.force))
 
 
-def _mean_speed(patch: Any, velocity: Velocity) -> float:
-    """Return V to which CONTACT refers creepages [m/s]: the mean of the speeds of both surfaces."""
-    spin = velocity.spin if velocity.spin is not None else -velocity.forward / patch.rolling_radius
-    mean = 0.5 * (math.hypot(velocity.forward, velocity.y) + abs(spin) * patch.rolling_radius)
-    return mean if mean > 0.0 else 1.0
-
-
-def _friction(case: Case, patch: Any, side: str) -> Friction:
-    """Return the friction of a patch; over the inclination, that at its contact angle in wheel axes of the right side."""
+def _at_patch(case: Case, angle: float, side: str) -> Case:
+    """Return the case with one set of friction constants: over the inclination that at the contact angle in wheel axes."""
     rows = case["ROWS"]
+    if rows == 0:
+        return case
+    if rows == 2:
+        where, known = case["S_WS"], case["SVF"]
+    else:
+        rolled = case["ROLL"] + case.get("DROLLW", 0.0)
+        where, known = (angle - rolled) * (1.0 if side == "right" else -1.0), case["ALPHA"]
+    values: dict[str, Any] = {
+        name: float(np.interp(where, known, case[name])) for name in _CONSTANTS if isinstance(case.get(name), tuple)
+    }
+    return case.changed(ROWS=0, **values)
 
-    def value(name: str) -> float:
-        given = case[name]
-        if rows == 0:
-            return float(given)
-        if rows == 2:
-            return float(np.interp(case["S_WS"], case["SVF"], given))
-        mirror = 1.0 if side == "right" else -1.0
-        angle = mirror * (patch.angle - case["ROLL"])
-        return float(np.interp(angle, case["ALPHA"], given))
 
+_CONSTANTS = (
+    *("FSTAT", "FKIN", "FREF", "TREF", "DFHEAT", "DTHEAT", "SABSH1", "SABSH2"),
+    *(f"F{law}{k}" for law in ("LIN", "RAT", "EXP") for k in "12"),
+)
+
+
+def _friction(case: Case) -> Friction:
+    """Return the friction of strips."""
+    case = _at_patch(case, 0.0, "right")
     kind = case["LAW"]
     if kind == 0:
-        return Friction(value("FSTAT"))
+        return Friction(case["FSTAT"])
     name, prefix = _LAWS[kind]
-    two = np.any(np.asarray(case[f"{prefix}2"]) != 0.0)
-    if two or case["MEMDST"] > 0.0:
-        raise refuse(case, "law on a pair", f"L = {kind}")
-    first, kinetic = value(f"{prefix}1"), value("FKIN")
-    return Friction(kinetic + first, kinetic, value("SABSH1"), name, velocity="local")
+    if case[f"{prefix}2"] != 0.0 or case["MEMDST"] > 0.0:
+        raise refuse(case, "law on strips", f"L = {kind}")
+    return Friction(case["FKIN"] + case[f"{prefix}1"], case["FKIN"], case["SABSH1"], name, velocity="local")
 
 
 class PairRunner:
-    """Runs cases of a wheel on a rail."""
+    """Runs cases of a wheel on a rail in order, with what they leave behind."""
 
     def __init__(self, fast: bool, memory: float) -> None:
         self._fast, self._memory = fast, memory
         self._key: Any = None
-        self._pair: HalfspacePair | WheelRailPair | None = None
+        self._pair: _FilePair | WheelRailPair | None = None
+        self._before: Any = ()
 
     def solve(self, case: Case) -> Result:
         """Return the result of a case."""
         require_supported(case, self._fast)
-        pair = self._prepared(case)
-        pose = Pose(case["Y_WS"], case.get("Z_WS", 0.0) if case.digits["N"] == 0 else 0.0, case["ROLL"], case["YAW"])
-        velocity = Velocity(*(case[name] for name in ("VS", "VY", "VZ", "VROLL", "VYAW", "VPITCH")))
-        if not velocity.forward > 0.0:
-            raise refuse(case, "input", f"VS = {velocity.forward:g}; allowed: positive")
-        if isinstance(pair, _FilePair):
-            pair.case, pair.pose = case, pose
-        rail = Irregularity(*(case[name] for name in _DEVIATIONS))
-        amount: dict[str, Any] = {}
-        if case.digits["N"] == 1:
+        pair, digits = self._prepared(case), case.digits
+        roller = digits["C1"] in (4, 5)
+        forward = case["RPITCH"] * case["NOMRADR"] if roller else case["VS"]
+        spin = None if digits["F"] == 1 else case["VPITCH"]
+        velocity = Velocity(forward, case["VY"], case["VZ"], case["VROLL"], case["VYAW"], spin)
+        if digits["T"] != 1 and not forward > 0.0:
+            raise refuse(case, "input", f"{'RPITCH' if roller else 'VS'} gives {forward:g} m/s; allowed: positive")
+        given: dict[str, Any] = {
+            "station": case["X_WS" if roller else "S_WS"],
+            "rotation": case["PITCH"],
+            "irregularity": bodies.irregularity(case),
+        }
+        if any(case.get(name) for name in _OFFSET):
+            given["offset"] = _offset(case)
+        if digits["N"] == 1:
             if case["FZ"] <= 0.0:
                 return Result(case, status="no contact")
-            amount["vertical"] = case["FZ"]
-        friction: Any = 0.0 if not case.digits["T"] else _first_friction(case)
-        found = pair.solve(
-            pose,
-            velocity,
-            station=case["S_WS"],
-            rotation=case["PITCH"],
-            irregularity=rail,
-            friction=friction,
-            **amount,
-        )
+            given["vertical"] = case["FZ"]
+        if digits["F"] == 3:
+            ky, kz = (case[f"K{axis}RAIL"] or math.inf for axis in "YZ")
+            given["rail"] = ElasticRail(ky, kz, case["FYRAIL"], case["FZRAIL"])
+        pose = Pose(case["Y_WS"], case.get("Z_WS", 0.0) if digits["N"] == 0 else 0.0, case["ROLL"], case["YAW"])
+        if isinstance(pair, _FilePair):
+            found = self._stepped(case, pair, pose, velocity, given)
+        else:
+            given["friction"] = _friction(case) if digits["T"] else 0.0
+            found = pair.solve(pose, velocity, force=-case["FX_WS"] if digits["F"] == 1 else None, **given)
         result = _result(case, found, velocity)
         if self._fast and bodies.has_slices(case) and result.status in ("ok", "saturated"):
             return replace(
@@ -154,31 +182,60 @@ class PairRunner:
             )  # the edge of a flat is no parabola, and gap_error misses some
         return result
 
-    def _prepared(self, case: Case) -> HalfspacePair | WheelRailPair:
+    def _stepped(
+        self, case: Case, pair: _FilePair, pose: Pose, velocity: Velocity, given: dict[str, Any]
+    ) -> PairSolution:
+        """Return the solution of the case's step, from what the case before has left."""
+        digits = case.digits
+        pair.take(case)
+        if not case.continues:
+            pair.forget()
+        elif digits["P"] == 3:
+            pair.restore(self._before)
+        elif digits["P"] == 1:
+            pair.forget(keep_pressure=True)
+        self._before = pair.state
+        if digits["T"] == 1:
+            return pair.shift(pose, velocity, **given)
+        if digits["F"] == 1:
+            given["force"] = -case["FX_WS"]
+        if digits["T"] == 2:
+            sliding = digits["G"] in (2, 3, 4) and case["INISLP"] < 0
+            return pair.roll(pose, velocity, distance=case["DQREL"] * case["DX"], sliding=sliding, **given)
+        return pair.roll_on(pose, velocity, **given)
+
+    def _prepared(self, case: Case) -> _FilePair | WheelRailPair:
         key = bodies.key(case)
         if self._pair is None or key != self._key:
             made: SurfacePair = bodies.pair(case)
+            last = self._pair
             if self._fast:
                 self._pair = WheelRailPair(made, material=made.material)
             else:
                 self._pair = _FilePair(made)
-                self._pair.pair.division = bodies.Centred(*made.division)
                 profile = bodies.body(case, "W")
                 self._pair.wheel = Wheel.of(profile, case["NOMRADW"]) if isinstance(profile, Profile) else None
+                if bodies.is_roller(case):
+                    self._pair.roller = bodies.roller(case)
+                if isinstance(last, _FilePair) and last.pair.division.spacing == made.division.spacing:
+                    self._pair.restore(last.state)
             self._key = key
         return self._pair
 
 
-_DEVIATIONS = ("DYRAIL", "DZRAIL", "DROLLR", "VYRAIL", "VZRAIL", "VROLLR")
+_OFFSET = tuple(
+    f"{first}{name}"
+    for first, names in (("D", "X Y Z"), ("V", "X Y Z"))
+    for name in (f"{axis}WHL" for axis in names.split())
+) + tuple(f"{first}{name}W" for first in "DV" for name in ("ROLL", "PITCH", "YAW"))
 
 
-def _first_friction(case: Case) -> Friction:
-    """Return the friction of strips; on the half space each patch has its own."""
-
-    class Middle:
-        angle = 0.0
-
-    return _friction(case, Middle, "right")
+def _offset(case: Case) -> WheelOffset:
+    """Return the displacement of a flexible wheel, which CONTACT gives in the axes of the wheelset."""
+    turn = turned(case["ROLL"], case["YAW"])
+    place, rate = (turn @ np.array([case[f"{first}{axis}WHL"] for axis in "XYZ"]) for first in "DV")
+    angles, turning = ([case[f"{first}{name}W"] for name in ("ROLL", "PITCH", "YAW")] for first in "DV")
+    return WheelOffset(*map(float, place), *angles, *map(float, rate), *turning)
 
 
 def _result(case: Case, found: PairSolution, velocity: Velocity) -> Result:
@@ -206,7 +263,7 @@ def _patch(case: Case, c: Contact, velocity: Velocity, mirror: float) -> PatchRe
         "DELTCP(TR)": c.angle,
         "YCP(W)": mirror * c.on_wheel[0],
     }
-    cant = case.get("CANT", 0.0)  # the file's profile is upright
+    cant = -bodies.turned(case)  # the file's profile is upright
     y, z = (float(at) for at in c.on_rail)
     values["YCP(R)"] = mirror * (math.cos(cant) * y - math.sin(cant) * z)
     values["ZCP(R)"] = math.sin(cant) * y + math.cos(cant) * z
@@ -215,8 +272,8 @@ def _patch(case: Case, c: Contact, velocity: Velocity, mirror: float) -> PatchRe
     where = c.position if c.patch is None else c.patch.position
     values |= dict(zip(("XCP(TR)", "YCP(TR)", "ZCP(TR)"), map(float, where), strict=True))
     if isinstance(solution, GridSolution):
-        inside = solution.p > 0.0
-        sticks = int((solution.stick & inside).sum()) if case.digits["T"] else int(inside.sum())
-        values |= {"NCON": float(inside.sum()), "NADH": float(sticks), "NSLIP": float(inside.sum() - sticks)}
-        values["FRIC.POWER"] = -solution.power_per_metre * solution.speed
+        values |= single.counts(case, solution)
+        values["FRIC.POWER"] = -single.work(solution) * solution.speed
+        if case.digits["H"]:
+            values |= single.temperature(case, solution)
     return PatchResult(values, solution)

@@ -68,7 +68,7 @@ class Result:
         """
         if signs not in SIGNS:
             raise ContactError(f"signs = {signs!r} is unknown; allowed: {', '.join(SIGNS)}")
-        shift = self.case.module == 3 and self.case.digits["T"] == 1
+        shift = self.case.digits["T"] == 1
         first = {"case": self.case.number, "patch": 0, "status": self.status, "refused": self.refused}
         rows = [first | _cells(TOTALS, self.values, signs) | _cells(PATCH, {}, signs)]
         for k, patch in enumerate(self.patches, 1):

@@ -204,12 +204,23 @@ class Single:
         return scale * case["FXREL"], (scale * case["FYREL"] if case.digits["F"] == 2 else None)
 
 
+def counts(case: Case, s: GridSolution) -> dict[str, float]:
+    """Return the numbers of elements in contact, in adhesion, in slip and yielding."""
+    inside = s.p > 0.0
+    plastic = int(s.layer.plastic[inside].sum()) if s.layer is not None else 0
+    sticks = int((s.stick & inside).sum()) if case.digits["T"] else int(inside.sum())
+    values = {
+        "NCON": float(inside.sum()),
+        "NADH": float(sticks - (plastic if case.digits["T"] and s.layer is not None and _both(s) else 0)),
+        "NSLIP": float(inside.sum() - sticks - (0 if _both(s) else plastic)),
+    }
+    return values if s.layer is None else values | {"NPLAST": float(plastic)}
+
+
 def _result(case: Case, contact: Transient, ground: Bed, solution: GridSolution, sign: float, fields: bool) -> Result:
     """Return the result in CONTACT's signs; `sign` is -1 if the contact was turned."""
     s, digits = solution, case.digits
     inside = s.p > 0.0
-    plastic = int(s.layer.plastic[inside].sum()) if s.layer is not None else 0
-    sticks = int((s.stick & inside).sum()) if digits["T"] else int(inside.sum())
     values = {
         "FN": s.N,
         "FX": -sign * s.Fx,
@@ -218,19 +229,15 @@ def _result(case: Case, contact: Transient, ground: Bed, solution: GridSolution,
         "CPHI": case["CPHI"],
         "APPROACH": s.approach,
         "PMAX": s.max_pressure,
-        "NCON": float(inside.sum()),
-        "NADH": float(sticks - (plastic if digits["T"] and s.layer is not None and _both(s) else 0)),
-        "NSLIP": float(inside.sum() - sticks - (0 if _both(s) else plastic)),
+        **counts(case, s),
         "ELAST.EN.": _energy(contact, s),
-        "FRIC.POWER": -_work(s) * (s.speed if digits["T"] in (2, 3) else 1.0),
+        "FRIC.POWER": -work(s) * (s.speed if digits["T"] in (2, 3) else 1.0),
     }
-    if s.layer is not None:
-        values["NPLAST"] = float(plastic)
     turned = -sign if digits["T"] in (2, 3) else -1.0
     values["CKSI"] = turned * s.creepage.longitudinal - case["CPHI"] * case["SPINYO"]
     values["CETA"] = turned * s.creepage.lateral + case["CPHI"] * case["SPINXO"]
     if digits["H"]:
-        values |= _temperature(case, s)
+        values |= temperature(case, s)
     status = s.status
     if status is Status.OUT_OF_RANGE:  # the ring around the grid never touches
         status = Status.OK
@@ -285,7 +292,7 @@ def _extra_slip(case: Case, ground: Bed, sign: float) -> Array | float:
     return ours * np.pad(slip, ((0, 0), (1, 1), (1, 1)))[:, turn, turn]
 
 
-def _work(solution: GridSolution) -> float:
+def work(solution: GridSolution) -> float:
     """Return the work of friction and of plastic shear, per metre rolled [N] or of a shift [J]."""
     layer = solution.layer
     return solution.power_per_metre + (0.0 if layer is None else layer.power_per_metre)
@@ -312,7 +319,7 @@ def _energy(contact: Transient, solution: GridSolution) -> float:
     return 0.5 * dA * float((p * un + q[0] * ux + q[1] * uy).sum())
 
 
-def _temperature(case: Case, solution: GridSolution) -> dict[str, float]:
+def temperature(case: Case, solution: GridSolution) -> dict[str, float]:
     """Return the highest temperature [°C] if both bodies have the same thermal constants."""
     constants = thermal(case)
     if constants is None or not solution.p.any():

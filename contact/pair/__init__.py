@@ -1,8 +1,9 @@
 """A wheel on a rail, on a roller or between switch and crossing.
 
 Three pairs have the same methods and the same result, `PairSolution`: `WheelRailPair` solves by a strip method,
-`HalfspacePair` by the half space, `RollerRig` on a roller. `solve` takes a pose, a velocity and what is given: a load, a
-penetration, a force, a torque. `run` takes a motion over time or along the way. `over_poses` takes arrays of poses.
+`HalfspacePair` by the half space, `RollerRig` on a roller; `TransientPair` shifts and rolls in steps. `solve` takes a pose, a
+velocity and what is given: a load, a penetration, a force, a torque. `run` takes a motion over time or along the way.
+`over_poses` takes arrays of poses.
 """
 
 from contact.pair.contact_damping import ContactDamping
@@ -14,6 +15,7 @@ from contact.pair.motion import PairRun
 from contact.pair.poses import PoseForces, over_poses
 from contact.pair.roller import RollerRig
 from contact.pair.solution import Contact, PairArchard, PairDamage, PairSolution
+from contact.pair.transient import TransientPair
 from contact.pair.wheel_rail import WheelRailPair
 
 __all__ = [
@@ -29,6 +31,7 @@ __all__ = [
     "PairSolution",
     "PoseForces",
     "RollerRig",
+    "TransientPair",
     "WheelRailPair",
     "in_curve",
     "over_poses",

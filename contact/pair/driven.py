@@ -27,10 +27,12 @@ def drive(
     shear_modulus: float,
     force: float | None,
     torque: float | None,
+    pull: Callable[[PairSolution], float] | None = None,
 ) -> PairSolution:
     """Return the solution at the rotation that gives a longitudinal force [N] or a torque about the axle [N m].
 
-    `solve` solves the pair at a velocity; `radius` is the nominal radius [m]. The status is UNREACHABLE if no rotation up
+    `solve` solves the pair at a velocity; `radius` is the nominal radius [m], `pull`
+    gives the force that is meant. The status is UNREACHABLE if no rotation up
     to half of free rolling gives the force; the solution is then the last that was tried.
 
     Raises
@@ -53,7 +55,7 @@ def drive(
         nonlocal found
         if spin != found.spin:
             found = solve(replace(velocity, spin=spin))
-        made = float(found.force[0]) if torque is None else float(found.moment[1])
+        made = (float(found.force[0]) if pull is None else pull(found)) if torque is None else float(found.moment[1])
         left = wanted - made  # a slower wheel, whose spin is larger, pulls less
         return 0.0 if abs(left) <= _TOLERANCE * arm * max(abs(found.Q), 1.0) else left
 

@@ -7,50 +7,78 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
+from typing import Any, NamedTuple
+
+import numpy as np
 
 from contact.errors import ContactError, require_number
 from contact.friction import Friction
+from contact.geometry.flexible import WheelOffset
 from contact.geometry.records import Irregularity, Pose, Velocity
 from contact.geometry.surfaces import SurfacePair, SurfacePatch
+from contact.halfspace.third_body import ThirdBody
+from contact.inputs.creepage import Creepage
 from contact.instance.ownership import one_thread, within
 from contact.kernels.enumerations import Height
+from contact.pair.driven import drive
+from contact.pair.elastic_rail import ElasticRail, balanced
 from contact.pair.motion import AnyPair
+from contact.pair.sliding import Bodies, Roller, Sliding, displaced
 from contact.pair.solution import PairSolution, Solved, of_patches
 from contact.pair.wheel_rail import WheelRailPair
 from contact.registry import DEFAULT_TANGENTIAL
-from contact.results import Status
+from contact.results.solution import Status
 from contact.solve import solve
 
 #: Iteration for a vertical force with friction: largest number of steps, and tolerances relative to the force. On rough
 #: surfaces the force jumps with z when the grid takes in another row, so after half of the steps the wider one counts.
 _MOST_STEPS, _TOLERANCE, _WIDER = 16, 1e-4, 2e-3
 _MISSED = 1e-3  # relative error of a load above which the status tells of it, as for strips
+_IDEAL, _STRAIGHT = Irregularity(), WheelOffset()
+
+
+class Instant(NamedTuple):
+    """What is given at one instant."""
+
+    pose: Pose
+    velocity: Velocity
+    station: float
+    rotation: float
+    irregularity: Irregularity
+    offset: WheelOffset
+    friction: Any
 
 
 class HalfspacePair(AnyPair):
-    """One wheel rolling on one rail that may both change along the way.
+    """One wheel rolling on one rail, or on a roller, that may both change along the way.
 
     Parameters
     ----------
     pair : SurfacePair
         Surfaces, side, gauge, elements and material. Each patch is solved on its own gap, by NORM and TANG.
+    layer : contact.ThirdBody
+        Layer between wheel and rail.
 
     Notes
     -----
-    Rolling is steady: what has happened before the present pose does not count.
+    Rolling is steady: what has happened before the present pose does not count; with `contact.pair.TransientPair` it does.
+    On a roller (`RailSurface.roller`) `velocity.forward` is the speed of the roller's surface at its radius, `station` the
+    distance of the wheelset ahead of the roller's axis, and creepages refer to the mean speed of both surfaces.
 
     Raises
     ------
     ContactError
-        If `pair` is no SurfacePair.
+        If `pair` is no SurfacePair or `layer` no ThirdBody.
     """
 
     pair: SurfacePair
 
-    def __init__(self, pair: SurfacePair) -> None:
+    def __init__(self, pair: SurfacePair, *, layer: ThirdBody | None = None) -> None:
         if not isinstance(pair, SurfacePair):
             raise ContactError(f"pair = {pair!r} is not a contact.geometry.surfaces.SurfacePair")
-        self.pair = pair.again()
+        if not isinstance(layer, ThirdBody | None):
+            raise ContactError(f"layer = {layer!r} is not a contact.ThirdBody")
+        self.pair, self.layer = pair.again(), layer
         self._turn = self.pair._turn
 
     @one_thread
@@ -64,8 +92,12 @@ class HalfspacePair(AnyPair):
         load: float | None = None,
         penetration: float | None = None,
         vertical: float | None = None,
+        force: float | None = None,
+        torque: float | None = None,
         irregularity: Irregularity | None = None,
         friction: float | Friction = 0.3,
+        rail: ElasticRail | None = None,
+        offset: WheelOffset | None = None,
     ) -> PairSolution:
         """Find and solve all patches at one instant.
 
@@ -76,6 +108,8 @@ class HalfspacePair(AnyPair):
         vertical : float
             Vertical force on the wheel [N] ≥ 0 that normal and friction forces carry together, instead of `load` and
             `penetration`.
+        force, torque, rail, offset :
+            As for `contact.pair.WheelRailPair.solve`.
         friction : float or contact.friction.Friction
             Coulomb's coefficient mu ≥ 0 [-], or a friction law.
 
@@ -85,32 +119,111 @@ class HalfspacePair(AnyPair):
             For input outside its range, if the wheel does not lie above the rail, or if no z gives the force. Where the
             force jumps over a `load`, the status is NOT_CONVERGED instead.
         """
-        velocity, given = velocity or Velocity(), {"load": load, "penetration": penetration, "vertical": vertical}
+        at = Instant(
+            pose, velocity or Velocity(), station, rotation, irregularity or _IDEAL, offset or _STRAIGHT, friction
+        )
+        return self._given(at, load, penetration, vertical, force, torque, rail)
+
+    def _given(
+        self,
+        at: Instant,
+        load: float | None,
+        penetration: float | None,
+        vertical: float | None,
+        force: float | None,
+        torque: float | None,
+        rail: ElasticRail | None,
+    ) -> PairSolution:
+        """Return the solution for what is given of height, forces and springs."""
+        given = {"load": load, "penetration": penetration, "vertical": vertical}
         if sum(amount is not None for amount in given.values()) > 1:
             raise ContactError(f"of {given} only one may be given")
+        for name, value, kind in (("rail", rail, ElasticRail), ("offset", at.offset, WheelOffset)):
+            if not isinstance(value, kind | None):
+                raise ContactError(f"{name} = {value!r} is not a {kind.__module__}.{kind.__name__}")
+
+        def placed(dy: float, dz: float, now: Instant) -> PairSolution:
+            moved = replace(now.irregularity, y=now.irregularity.y + dy, z=now.irregularity.z + dz)
+            return self._at(now._replace(irregularity=moved), load, penetration, vertical)
+
+        def turning(velocity: Velocity) -> PairSolution:
+            now = at._replace(velocity=velocity)
+            if rail is None:
+                return self._at(now, load, penetration, vertical)
+            fixed = all(amount is None for amount in given.values())
+            return balanced(lambda dy, dz: placed(dy, dz, now), rail, fixed)
+
+        if force is None and torque is None:
+            return turning(at.velocity)
+        return drive(
+            turning, at.velocity, self.pair.nominal_radius, self.pair.material.shear_modulus, force, torque, self._pull
+        )
+
+    def _pull(self, found: PairSolution) -> float:
+        """Return the longitudinal force on the wheel [N]."""
+        return float(found.force[0])
+
+    def _at(self, at: Instant, load: float | None, penetration: float | None, vertical: float | None) -> PairSolution:
+        """Return the solution at a height, or under a force."""
         if vertical is not None:
             require_number("vertical", vertical, 0.0)
-        within(self.pair.place)(pose, velocity, station=station, rotation=rotation, irregularity=irregularity)
-        self.pair.doubt(pose, velocity, *((load,) if vertical is None else (vertical, "vertical")))
+        self._place(at)
+        self._doubt(at, *((load,) if vertical is None else (vertical, "vertical")))
         if vertical is not None:
-            return self._under(vertical, pose, velocity, friction)
+            return self._under(vertical, at)
         mode, amount = self.pair.prescribed(load, penetration)
         if mode != Height.LOAD:
-            return self._solution(within(self.pair.found)(mode, amount), pose, velocity, friction)
+            return self._solution(within(self.pair.found)(mode, amount), at)
         missed = within(self.pair.settle)(amount)
-        found = self._solution(within(self.pair.found)(), pose, velocity, friction)
+        found = self._solution(within(self.pair.found)(), at)
         return replace(found, status=Status.NOT_CONVERGED) if missed > _MISSED else found
 
-    def _solution(
-        self, patches: Sequence[SurfacePatch], pose: Pose, velocity: Velocity, friction: float | Friction
-    ) -> PairSolution:
-        """Return the solution of patches, which the last search has found."""
-        radius = self.pair.nominal_radius
-        spin = -velocity.forward / radius if velocity.spin is None else velocity.spin
-        found = [self._solved(patch, velocity, friction) for patch in patches]
-        return of_patches(found, pose, self.pair.z, self.pair.side, radius, spin)
+    def _place(self, at: Instant) -> None:
+        """Place wheel and rail for a search; a displaced wheel as that of the rigid wheelset that has it."""
+        pose, moved = (at.pose, np.zeros(3)) if at.offset is _STRAIGHT else displaced(at.pose, at.offset, self._datum)
+        self._pose, self._moved = pose, moved  # of the last search
+        within(self.pair.place)(
+            pose,
+            at.velocity,
+            station=at.station + float(moved[0]),
+            rotation=at.rotation + at.offset.pitch,
+            irregularity=at.irregularity,
+        )
 
-    def _under(self, vertical: float, pose: Pose, velocity: Velocity, friction: float | Friction) -> PairSolution:
+    def _doubt(self, at: Instant, *amount: Any) -> None:
+        """Warn of what no wheelset has."""
+        self.pair.doubt(at.pose, at.velocity, *amount)
+
+    @property
+    def _datum(self) -> float:
+        """Distance of the wheel's tape circle from the wheelset's centre, to the right [m]."""
+        return self.pair.tape if self.pair.side == "right" else -self.pair.tape
+
+    @property
+    def _height(self) -> float:
+        """pose.z of the wheelset after the last search [m]."""
+        return self.pair.z - float(self._moved[2])
+
+    def _bodies(self, at: Instant, **options: Any) -> Bodies:
+        """Return wheel and rail in motion, as the last search has left them."""
+        pair, rail = self.pair, at.irregularity
+        y, z = pair.rail_origin
+        origin = (y if pair.side == "right" else -y) + rail.y, z + rail.z
+        radius = pair.rail.roller_radius
+        if radius is not None and "roller" not in options:
+            options["roller"] = Roller(radius, origin[1] + radius)
+        pose = replace(at.pose, z=self._height)
+        return Bodies(pose, at.velocity, pair.nominal_radius, rail, origin, at.offset, self._datum, **options)
+
+    def _solution(self, patches: Sequence[SurfacePatch], at: Instant) -> PairSolution:
+        """Return the solution of patches, which the last search has found."""
+        radius, velocity = self.pair.nominal_radius, at.velocity
+        spin = -velocity.forward / radius if velocity.spin is None else velocity.spin
+        found = [self._solved(patch, at) for patch in patches]
+        z = self._height
+        return of_patches(found, at.pose, z, self.pair.side, radius, spin, ahead=float(self._moved[0]))
+
+    def _under(self, vertical: float, at: Instant) -> PairSolution:
         """Return the solution under a vertical force.
 
         The normal forces carry it less the vertical part of friction, which is found by the secant method, from the force
@@ -119,7 +232,7 @@ class HalfspacePair(AnyPair):
         carried, before = vertical, None
         for step in range(_MOST_STEPS):
             within(self.pair.settle)(carried)
-            found = self._solution(within(self.pair.found)(), pose, velocity, friction)
+            found = self._solution(within(self.pair.found)(), at)
             miss = vertical - found.Q
             if abs(miss) <= (_TOLERANCE if step < _MOST_STEPS // 2 else _WIDER) * vertical:
                 return found
@@ -130,15 +243,32 @@ class HalfspacePair(AnyPair):
             f"vertical = {vertical:g}: no z was found at which normal and friction forces carry it together"
         )
 
-    def _solved(self, patch: SurfacePatch, velocity: Velocity, friction: float | Friction) -> Solved:
+    def _rolling(self, patch: SurfacePatch, at: Instant) -> tuple[Creepage, float]:
+        """Return the creepages of a patch, and the speed to which they refer [m/s]."""
+        if at.offset is _STRAIGHT and self.pair.rail.roller_radius is None:
+            return patch.creepage, at.velocity.forward
+        one = self._slide(patch, at)
+        reference = abs(at.velocity.forward) if self.pair.rail.roller_radius is None else one.mean
+        speed = max(reference, self.pair.reference_speed)
+        return Creepage(one.x / speed, one.y / speed, one.spin / speed), speed
+
+    def _slide(self, patch: SurfacePatch, at: Instant, **options: Any) -> Sliding:
+        """Return how the wheel slides over the rail at a patch, as rigid bodies. `options` are those of `Bodies`."""
+        ahead = np.array([self._moved[0], 0.0, 0.0])
+        points = np.array(patch.position) + ahead, np.array(patch.wheel_position) + ahead
+        return self._bodies(at, **options).at(*points, patch.frame.axes)
+
+    def _solved(self, patch: SurfacePatch, at: Instant) -> Solved:
         """Return the patch with its solution."""
+        creepage, speed = self._rolling(patch, at)
         found = solve(
             patch.gap,
-            patch.creepage,
+            creepage,
             approach=patch.approach,
-            friction=friction,
+            friction=at.friction,
             material=self.pair.material,
-            speed=velocity.forward,
+            layer=self.layer,
+            speed=speed,
             throw=False,
             normal="halfspace",
             tangential="halfspace",

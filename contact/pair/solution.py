@@ -241,13 +241,14 @@ class Solved(NamedTuple):
 
 
 def of_patches(
-    found: Sequence[Solved], pose: Pose, z: float, side: str, nominal_radius: float, spin: float
+    found: Sequence[Solved], pose: Pose, z: float, side: str, nominal_radius: float, spin: float, ahead: float = 0.0
 ) -> PairSolution:
     """Return the action of all patches on the wheelset at the height `z` [m]; `spin` is the rotation of the wheel [rad/s].
 
+    The patches' x counts from a point `ahead` of the wheelset's centre [m].
     Sums and maxima are those of the kernel of `WheelRailPair`.
     """
-    centre = np.array([0.0, pose.y, z - nominal_radius])
+    centre = np.array([-ahead, pose.y, z - nominal_radius])
     force, moment = np.zeros(3), np.zeros(3)
     contacts = [_contact(one) for one in found]
     for contact, one in zip(contacts, found, strict=True):

@@ -6,7 +6,7 @@ import pytest
 from contact.geometry.records import Pose
 from contact.geometry.shape import Profile
 from contact.geometry.surfaces import SurfacePair
-from contact.inp.bodies import Centred
+from contact.halfspace.lattice import Lattice
 from contact.inp.mesh import Wheel, flattened
 
 RADIUS, STEP = 0.05, 4e-4  # of the hollow wheel, and of the elements [m]
@@ -20,7 +20,7 @@ def lowered(yaw, step=STEP, side="right"):
         "rail", y, 0.03 - np.sqrt(0.03**2 - np.clip(y, -0.028, 0.028) ** 2) + 0.2 * (abs(y) > 0.028) * abs(y)
     )
     pair = SurfacePair(hollow, round_, side=side, rail_origin=(0.75, 0.0), flange_back=1.36, spacing=STEP)
-    pair.division = Centred(*pair.division)
+    pair.division = Lattice.centred(pair.division.spacing)
     pose = Pose(yaw=yaw)
     (patch,) = pair.contacts(pose, penetration=1e-4)
     mesh = flattened(patch, pair, pose, Wheel.of(hollow, pair.nominal_radius), step)

@@ -20,6 +20,7 @@ from contact.geometry.surfaces.surface import RailSurface, WheelSurface
 from contact.geometry.wheelset import TAPE_FROM_FLANGE_BACK, place_of_rail
 from contact.given_force import rising_root
 from contact.halfspace.gap import Division, Gap
+from contact.halfspace.lattice import Lattice
 from contact.halfspace.norm import norm
 from contact.inputs.creepage import Creepage
 from contact.inputs.material import STEEL, Material
@@ -33,7 +34,6 @@ from contact.kernels.geometry.settle import DEEPEST
 from contact.kernels.records import MAX_PATCHES, SLOWEST
 
 Range = tuple[float, float, float, float]
-
 ROWS = COLUMNS = 60
 SAMPLES = 81  # of a separation; 41 miss the peaks of crossing noses
 REACHES = 1e-2, 0.3  # [m] least and largest reach from the axle
@@ -103,6 +103,8 @@ class SurfacePair(Posed):
     side : {"right", "left"}
     nominal_radius, gauge, flange_back, gauge_point :
         As for `contact.geometry.wheelset.Pair` [m].
+    tape : float, optional
+        Distance of the tape circle from the wheelset's centre [m], 0 to 3, instead of `flange_back`; 0: a single wheel.
     rail_origin : (float, float), optional
         Place (y, z) of the origin of the rail's points in track coordinates of the right side [m]. Default: the place at which
         a rail with one profile has the gauge. Required for a rail that changes along the track.
@@ -141,6 +143,7 @@ class SurfacePair(Posed):
         nominal_radius: float = 0.460,
         gauge: float = 1.435,
         flange_back: float = 1.360,
+        tape: float | None = None,
         gauge_point: float = 0.014,
         rail_origin: tuple[float, float] | None = None,
         combine_distance: float = 8e-3,
@@ -159,23 +162,22 @@ class SurfacePair(Posed):
                     f"rail_origin = None: {rail!r} has no gauge; give the place of its origin (y, z) [m]"
                 )
             rail_origin = place_of_rail(rail, require_number("gauge", gauge, 0.1, 3.0), gauge_point)
-        self.rail_origin = (
-            require_number("rail_origin", rail_origin[0]),
-            require_number("rail_origin", rail_origin[1]),
-        )
+        y, z = (require_number("rail_origin", at) for at in rail_origin)
+        self.rail_origin = y, z
         self.wheel = WheelSurface.constant(wheel) if isinstance(wheel, Profile) else wheel
         self.rail = RailSurface.constant(rail) if isinstance(rail, Profile) else rail
         if not isinstance(self.wheel, WheelSurface) or not isinstance(self.rail, RailSurface):
             raise ContactError(f"wheel = {wheel!r} and rail = {rail!r} are not a WheelSurface and a RailSurface")
-        self.tape = 0.5 * require_number("flange_back", flange_back, 0.1, 3.0) + TAPE_FROM_FLANGE_BACK
+        back = require_number("flange_back", flange_back, 0.1, 3.0)
+        self.tape = 0.5 * back + TAPE_FROM_FLANGE_BACK if tape is None else require_number("tape", tape, 0.0, 3.0)
         self.combine_distance = require_number("combine_distance", combine_distance, 0.0)
         self.reach = require_number("reach", reach, *REACHES)
         self.tilted = bool(tilted)
-        both = spacing if spacing is None or isinstance(spacing, tuple) else (spacing, spacing)
+        both = (spacing, spacing) if isinstance(spacing, float | int) else spacing
         if both is not None:
             both = tuple(require_number("spacing", step, 1e-6, 1e-2) for step in both)  # type: ignore[assignment]
-        elements = (require_number("rows", rows, 10, 1000), require_number("columns", columns, 10, 1000))
-        self.division = Division(int(elements[0]), int(elements[1]), both)
+        n_rows, n_columns = (int(require_number(*each, 10, 1000)) for each in (("rows", rows), ("columns", columns)))
+        self.division: Division | Lattice = Division(n_rows, n_columns, both)
         self.material = material
         self._made = compiled.sheet(self.wheel), compiled.sheet(self.rail)
         self.space = workspace.surface_search(*self._made, SAMPLES)
@@ -198,7 +200,7 @@ class SurfacePair(Posed):
 
     @one_thread
     def follow(self, station: float) -> None:
-        """Fill the table of the rail's deviations around `station` [m], for a kernel that is called without `given`."""
+        """Fill the table of the rail's deviations around `station` [m], for a kernel called without `given`."""
         compiled.follow(self._made[1], self.rail, station)
 
     @property
@@ -266,13 +268,12 @@ class SurfacePair(Posed):
         mode, amount = self.prescribed(load, penetration)
         within(self.place)(pose, velocity, station=station, rotation=rotation, irregularity=irregularity)
         if mode == Height.LOAD:
-            within(self.settle)(amount)
-            mode = Height.GIVEN
+            mode, _ = Height.GIVEN, within(self.settle)(amount)
         return within(self.found)(mode, amount)
 
     @one_thread
     def settle(self, load: float) -> float:
-        """Set the height at which the pressures of the half space carry a vertical load [N], and return its relative error.
+        """Set the height at which the pressures of the half space carry a vertical load [N]; return its relative error.
 
         F^(2/3) is nearly linear in the penetration (Hertz). Where a surface ends or has an edge, the force may jump with z.
         Then the height is the best of those that were tried.
@@ -323,7 +324,9 @@ class SurfacePair(Posed):
         if box is None:
             return None
         division = self.division
-        if division.spacing is None:
+        if isinstance(division, Lattice):
+            division = division.placed(self.space.motion[0].station + float(frame.origin[0]), float(p.rail_y))
+        elif division.spacing is None:
             steps = _step(*box[:2], division.columns), _step(*box[2:], division.rows)
             division = division._replace(spacing=steps)
         centres = division.centres(box)

@@ -18,6 +18,8 @@ from contact.geometry.surfaces.sheet import SplineSheet
 from contact.geometry.surfaces.slices import MOST_SLICES, SPACING, Slice, connect, positions
 
 _FULL = 2.0 * math.pi
+#: Slices of a roller on both sides of its axis, and [m] how far they reach at most.
+_ROLLER_SLICES, _ROLLER_REACH = 60, 0.3
 _WIDEST = (
     2.5  # a wheel is closed if the gap from its last to its first slice is at most this times the widest other one
 )
@@ -25,6 +27,9 @@ _WIDEST = (
 
 class _Surface:
     """Slices and deviations. Points lie at (u, v): position of the slice, and index of a longitudinal path."""
+
+    #: Radius of a roller where its profile has z = 0 [m]; None for a rail and a wheel.
+    roller_radius: float | None = None
 
     def __init__(self, sheet: SplineSheet, deviations: Sequence[Deviation], name: str) -> None:
         for deviation in deviations:
@@ -36,6 +41,7 @@ class _Surface:
         """Return this surface with `deviations` added."""
         new = object.__new__(type(self))
         _Surface.__init__(new, self.sheet, (*self.deviations, *deviations), self.name)
+        new.roller_radius = self.roller_radius
         return new
 
     def curves(self, u: Array) -> Array:
@@ -112,6 +118,29 @@ class RailSurface(_Surface):
         """Return a rail with one `profile`, and `deviations` along the track."""
         _require_kind(profile, "rail")
         return cls([0.0], [profile], deviations=deviations, name=profile.name)
+
+    @classmethod
+    def roller(cls, profile: Profile, radius: float, *, spacing: float = SPACING) -> Self:
+        """Return the upper side of a roller with a rail's `profile`; s = 0 lies above its axis.
+
+        `radius` is that where the profile has z = 0 [m], 0.05 to 10; `spacing` is the distance of the paths along it [m].
+        """
+        _require_kind(profile, "rail")
+        R = require_number("radius", radius, 0.05, 10.0)
+        if profile.z.max() >= 0.5 * R:
+            raise ContactError(f"radius = {radius:g}: the profile reaches {profile.z.max():g} m down to the axis")
+        reach = min(_ROLLER_REACH, 0.4 * R)
+        s = np.linspace(-reach, reach, 2 * _ROLLER_SLICES + 1)
+        slices = []
+        for u in s.tolist():
+            r = R - profile.z
+            at = np.sqrt(r * r - u * u)  # the profile turned down along the circle
+            slices.append(
+                Profile("rail", profile.y, R - at, np.arctan2(np.sin(profile.angle) * r / at, np.cos(profile.angle)))
+            )
+        made = cls(s, slices, spacing=spacing, name=profile.name)
+        made.roller_radius = R
+        return made
 
     @classmethod
     def read(cls, path: str | PathLike[str], **options: Any) -> Self:

@@ -1,0 +1,63 @@
+"""`Lattice`: elements that keep their places on a rail while the contact moves over them."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from contact.arrays import Array
+from contact.errors import ContactError
+from contact.halfspace.gap import MAX_SIDE
+
+
+@dataclass(frozen=True, eq=False)
+class Lattice:
+    """Elements that keep their places on the rail, with centres at multiples of their size, whatever the contact's frame.
+
+    Attributes
+    ----------
+    spacing : size (dx, dy) of an element [m]
+    y, arc : arc length of the rail's profile [m] over its y [m]
+    along : whether they keep their places along the track, too, as for a shift; else they follow the frame
+    zero : place (u, arc length) of an element's centre [m]
+    cover : ranges (x, x, y, y) on the lattice [m] that a grid takes in if it meets them
+    origin : place of the frame on the lattice [m]
+    """
+
+    spacing: tuple[float, float]
+    y: Array
+    arc: Array
+    along: bool
+    zero: tuple[float, float] = (0.0, 0.0)
+    cover: tuple[tuple[float, float, float, float], ...] = ()
+    origin: tuple[float, float] = (0.0, 0.0)
+
+    @classmethod
+    def centred(cls, spacing: tuple[float, float]) -> Lattice:
+        """Return elements of which one has its centre at the origin of the frame, wherever that is."""
+        return cls(spacing, np.array([0.0, 1.0]), np.zeros(2), False)
+
+    def placed(self, u: float, y: float) -> Lattice:
+        """Return the lattice for a frame with its origin at `u` along the rail and at `y` of its profile [m]."""
+        arc = float(np.interp(y, self.y, self.arc))
+        return replace(self, origin=(u - self.zero[0] if self.along else 0.0, arc - self.zero[1]))
+
+    def centres(self, box: tuple[float, float, float, float]) -> tuple[Array, Array]:
+        """Return x and y [m] of the centres of the elements on the box, as `contact.halfspace.gap.Division.centres`."""
+        dx, dy = self.spacing
+        left, right, low, high = (at + self.origin[k // 2] for k, at in enumerate(box))
+        for a, b, c, d in self.cover:
+            if a <= right and b >= left and c <= high and d >= low:
+                left, right, low, high = min(left, a), max(right, b), min(low, c), max(high, d)
+        ends = math.floor(left / dx), math.ceil(right / dx), math.floor(low / dy), math.ceil(high / dy)
+        return self._axis(0, *ends[:2]), self._axis(1, *ends[2:])
+
+    def _axis(self, k: int, first: int, last: int) -> Array:
+        step = self.spacing[k]
+        if last - first > MAX_SIDE - 2:
+            raise ContactError(
+                f"spacing = {step:g} makes {last - first} elements along a side; allowed: {MAX_SIDE - 2}"
+            )
+        return np.arange(first, last + 1, dtype=np.float64) * step - self.origin[k]

@@ -1,0 +1,167 @@
+"""Module 1 of CONTACT's files in time and beyond a rigid wheel on a rail: against module 3, steady rolling, closed forms."""
+
+import numpy as np
+import pytest
+
+from contact import inp
+from contact.inp.reasons import REASONS
+from contact.theory.hertz import hertz
+from tests.inp.data import HEAD
+
+#: A wheel of 100 mm radius with a plane tread, alone on a rail with a circular top of 100 mm. Blocks of a first case, and of
+#: one that follows; {} are the control words and the lines of position, velocity and flexible wheel.
+FIRST = """ {words}
+  999 100 30 1 1e-6
+  0.3 0.3
+  0.28 0.28 82000. 82000.
+{layer}  0.2 0.2 {dqrel} 90d 8.0 4.0
+  0.0 0.0 0.0 {cant}
+  'circle.txt' 0 1.0 0.0 -1
+  {rail}
+{springs}  0.0 0.0 100.0
+  'plane.txt' 0 1.0 0.0 -1
+"""
+OPTIONS = {"layer": "", "dqrel": "1.0", "cant": "0.0", "rail": "0. 0. 0. 0. 0. 0.", "springs": ""}
+
+
+def profiles(folder, wheel=0.0, rail=0.0):
+    """Write the profiles; the radii of their tops [mm], 0 for a plane one and 100 for the rail's."""
+    t = np.linspace(-0.3, 0.3, 121)
+    folder.joinpath("circle.txt").write_text("\n".join(f"{100 * np.sin(a):.9f} {100 - 100 * np.cos(a):.9f}" for a in t))
+    folder.joinpath("plane.txt").write_text("\n".join(f"{y:.3f} 0.0" for y in np.linspace(30, -30, 121)))
+
+
+def words(first, second, last):
+    return f"{first}\n {second}\n {'0100321' if last else '0100320'}"
+
+
+def sequence(folder, cases, **options):
+    """Return the results of cases (first word, flexible, position and velocity lines) that follow each other."""
+    profiles(folder)
+    text = " 1\n"
+    for k, (first, flexible, lines) in enumerate(cases):
+        last = k + 1 == len(cases)
+        if k == 0:
+            control = words(first, "0022035" if flexible else "0022033", last).replace("01003", "00003")
+            text += FIRST.format(words=control, **(OPTIONS | options))
+        else:
+            text += f" {words(first, '0111004' if flexible else '0111002', last)}\n"
+        text += "".join(f"  {line}\n" for line in lines)
+    path = folder / "case.inp"
+    path.write_text(text + " 0\n")
+    return inp.solve(inp.read(path))
+
+
+REST = "0. 0. 0. 0. 0. 0."
+
+
+def test_shifts_of_a_wheel_are_those_of_the_same_gap_in_module_3(tmp_path):
+    cases = [("1201000", False, ("0. 0. 0.04 0. 0. 0.", "0. 0. 0. 0. 0. 2e-5"))]
+    cases += [("1001000", False, ("0. 0. 0.04 0. 0. 0.", "0. 0.001 0. 0. 0. -3e-5"))] * 2
+    found = sequence(tmp_path, cases)
+    text = HEAD.format(word="201000", second="022020", third="0000321", maxout=1)
+    text += " 0.04 -0.002 0. 0.\n 0.3 0.3\n 0.28 0.28 82000. 82000.\n 1\n 29 29 -2.9 -2.9 0.2 0.2\n 1 1\n 0.005 0 0.005 0 0 0\n"
+    for _ in range(2):
+        text += " 3\n 001000\n 100000\n 0100321\n 0.04 0.003 -0.001 0.\n"
+    path = tmp_path / "single.inp"
+    path.write_text(text + " 0\n")
+    same = inp.solve(inp.read(path))
+    assert [one.refused for one in (*found, *same)] == [""] * 6
+    for one, other in zip(found, same, strict=True):
+        a, b = one.patches[0].values, other.patches[0].values
+        for name in ("FN", "FX", "FY"):
+            assert a[name] == pytest.approx(b[name], abs=1e-3 * b["FN"])
+        assert a["CKSI"] == pytest.approx(b["CKSI"], rel=1e-3)
+        assert a["PMAX"] == pytest.approx(b["PMAX"], rel=1e-3)
+
+
+@pytest.mark.slow
+def test_transient_rolling_of_a_wheel_ends_in_steady_rolling(tmp_path):
+    lines = ("0. 0. 300. 0. 0. 0.", "1000. 0.5 0. 0. 0. -10.01")
+    found = sequence(
+        tmp_path, [("1202100", False, lines)] + [("1002100", False, lines)] * 25 + [("1203100", False, lines)]
+    )
+    assert not any(one.refused for one in found)
+    first, last, steady = (found[k].values for k in (0, -2, -1))
+    assert abs(first["FX(TR)"]) < 0.7 * abs(steady["FX(TR)"])
+    assert last["FX(TR)"] == pytest.approx(steady["FX(TR)"], rel=0.02)
+    assert last["FZ(TR)"] == pytest.approx(300.0, rel=2e-4)
+
+
+def test_steps_on_a_layer_yield_and_the_shear_stays(tmp_path):
+    layer = "  8200. 0.02 100. 0.\n"
+    moves = [("1201000", False, ("0. 0. 0.04 0. 0. 0.", "0. 0. 0. 0. 0. 1e-4"))]
+    moves += [("1001000", False, ("0. 0. 0.04 0. 0. 0.", "0. 0. 0. 0. 0. -5e-5"))]
+    profiles(tmp_path)
+    hard = sequence(tmp_path, moves)
+    text = (tmp_path / "case.inp").read_text()
+    text = text.replace("0022033", "0022433").replace("0111002", "0111402")
+    text = text.replace("  0.28 0.28 82000. 82000.\n", "  0.28 0.28 82000. 82000.\n" + layer)
+    (tmp_path / "soft.inp").write_text(text)
+    soft = inp.solve(inp.read(tmp_path / "soft.inp"))
+    assert not any(one.refused for one in soft)
+    assert abs(soft[0].values["FX(TR)"]) < abs(hard[0].values["FX(TR)"])
+    assert soft[0].patches[0].values["NPLAST"] > 0
+
+
+def test_a_single_wheel_with_DROLLW_stands_as_one_with_ROLL(tmp_path):
+    zero = ("0. 0. 0. 0. 0. 0.",) * 2
+    rolled = sequence(tmp_path, [("1203000", False, ("0. 0. 0.04 0.02 0. 0.", "1000. 0. 0. 0. 0. -10.0"))])[0]
+    turned = ("0. 0. 0. 0.02 0. 0.", zero[0])
+    flexible = sequence(tmp_path, [("1203000", True, ("0. 0. 0.04 0. 0. 0.", "1000. 0. 0. 0. 0. -10.0", *turned))])[0]
+    a, b = rolled.patches[0].values, flexible.patches[0].values
+    assert flexible.values["Z_WS"] == pytest.approx(rolled.values["Z_WS"], abs=1e-9)
+    for name in ("PMAX", "DELTCP(TR)", "FN"):
+        assert b[name] == pytest.approx(a[name], rel=1e-6)
+
+
+def test_a_wheel_on_a_roller_has_the_curvature_and_the_creepage_of_both(tmp_path):
+    """A roller of 150 mm under the wheel of 100 mm; CONTACT refers creepages to the mean of both surfaces' speeds."""
+    line = "  0.0 0.0 0.0 {}\n"
+    lines = ("0. 0. 0.04 0. 0. 0.", "{} 0. 0. 0. 0. -10.0")
+    profiles(tmp_path)
+    on_rail = sequence(tmp_path, [("1203000", False, (lines[0], lines[1].format("1000.")))], cant="0.0")[0]
+    assert on_rail.refused == ""
+    text = (
+        (tmp_path / "case.inp")
+        .read_text()
+        .replace(" 1203000", " 5203000")
+        .replace(line.format("0.0"), line.format("150."))
+    )
+    text = text.replace("1000. 0. 0.", "6.68 0. 0.")
+    (tmp_path / "roller.inp").write_text(text)
+    found = inp.solve(inp.read(tmp_path / "roller.inp"))[0]
+    assert found.refused == ""
+    values = found.patches[0].values
+    wheel, roller = 10.0 * 0.1, 6.68 * 0.15
+    assert values["CKSI"] == pytest.approx((wheel - roller) / (0.5 * (wheel + roller)), abs=2e-5)
+    exact = hertz(0.5 / 0.1 + 0.5 / 0.15, 0.5 / 0.1, load=values["FN"])
+    assert exact.approach == pytest.approx(4e-5, rel=5e-3)
+
+
+@pytest.mark.slow
+def test_given_forces_and_springs_are_in_balance(tmp_path):
+    pulled = sequence(tmp_path, [("1203110", False, ("0. 0. 300. 0. 0.01 0.", "1000. 0. 0. 0. 0. 40."))])[0]
+    assert pulled.values["FX(WS)"] == pytest.approx(40.0, abs=0.05)
+    springs = "  1000. 2. 2000. 5. \n"
+    held = sequence(
+        tmp_path, [("1203130", False, ("0. 0. 300. 0. 0.002 0.", "1000. 0. 0. 0. 0. -10."))], springs=springs
+    )[0]
+    assert held.refused == ""
+    rigid = sequence(tmp_path, [("1203100", False, ("0. 0. 300. 0. 0.002 0.", "1000. 0. 0. 0. 0. -10."))])[0]
+    assert held.values["Z_WS"] - rigid.values["Z_WS"] == pytest.approx((300.0 + 5.0) / 2e6, rel=0.01)
+
+
+def test_a_rail_in_a_curve_moves_under_the_wheel(tmp_path):
+    lines = ("0. 0. 0.04 0. 0. 0.", "1000. 0. 0. 0. 0. -10.0")
+    straight = sequence(tmp_path, [("1203000", False, lines)])[0]
+    curved = sequence(tmp_path, [("1203000", False, lines)], cant="0.0 1e-5")[0]
+    assert curved.patches[0].values["CPHI"] - straight.patches[0].values["CPHI"] == pytest.approx(-1e-2, rel=1e-3)
+
+
+def test_strips_refuse_what_needs_the_half_space_by_name(tmp_path):
+    profiles(tmp_path)
+    sequence(tmp_path, [("1201000", False, ("0. 0. 0.04 0. 0. 0.", REST))])
+    cases = inp.read(tmp_path / "case.inp")
+    assert inp.solve(cases, fast=True)[0].refused == "strips"
+    assert set(inp.refusals(cases, fast=True)) <= set(REASONS)
