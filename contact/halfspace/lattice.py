@@ -1,4 +1,4 @@
-"""`Lattice`: elements that keep their places on a rail while the contact moves over them."""
+"""Elements that keep their places on a rail while the contact moves over them, and a gap over a curved surface."""
 
 from __future__ import annotations
 
@@ -6,10 +6,13 @@ import math
 from dataclasses import dataclass, replace
 
 import numpy as np
+from numpy.typing import ArrayLike
 
-from contact.arrays import Array
+from contact.arrays import Array, as_array
 from contact.errors import ContactError
-from contact.halfspace.gap import MAX_SIDE
+from contact.halfspace.bent import Bent
+from contact.halfspace.gap import MAX_SIDE, Gap
+from contact.inputs.creepage import Creepage
 
 
 @dataclass(frozen=True, eq=False)
@@ -61,3 +64,31 @@ class Lattice:
                 f"spacing = {step:g} makes {last - first} elements along a side; allowed: {MAX_SIDE - 2}"
             )
         return np.arange(first, last + 1, dtype=np.float64) * step - self.origin[k]
+
+
+class CurvedGap(Gap):
+    """Undeformed distance over a curved surface, along the normal of each row of elements.
+
+    Parameters
+    ----------
+    x, y, h : as for `Gap`; y is the arc length across
+    place : array_like, shape (ny,)
+        y of each row in the contact plane [m].
+    tilt : array_like, shape (ny,)
+        Slope of each row against the plane [-].
+    """
+
+    __slots__ = ("place", "tilt")
+
+    def __init__(self, x: ArrayLike, y: ArrayLike, h: ArrayLike, place: ArrayLike, tilt: ArrayLike) -> None:
+        super().__init__(x, y, h)
+        self.place, self.tilt = as_array("place", place), as_array("tilt", tilt)
+        for name, rows in (("place", self.place), ("tilt", self.tilt)):
+            if rows.shape != self.y.shape or not np.isfinite(rows).all():
+                raise ContactError(f"{name} has shape {rows.shape}; finite numbers of shape {self.y.shape} are needed")
+
+
+def bent_rows(gap: Gap, creepage: Creepage) -> Bent:
+    """Return the rows of elements of a gap, for `contact.halfspace.solution.assemble`."""
+    rows = Bent.plane(creepage, gap.y)
+    return rows._replace(y=gap.place, tilt=gap.tilt) if isinstance(gap, CurvedGap) else rows

@@ -26,8 +26,8 @@ from contact.arrays import Array, as_array
 from contact.errors import ContactError, require_number, require_pair
 from contact.friction import Friction
 from contact.given_force import wanted_force
-from contact.halfspace.bent import Bent
 from contact.halfspace.gap import Division, Gap
+from contact.halfspace.lattice import bent_rows
 from contact.halfspace.local_law import LocalLaw, of_each_element
 from contact.halfspace.norm import Normal, norm
 from contact.halfspace.solution import GridSolution, assemble
@@ -385,7 +385,7 @@ class Transient(OwnsArrays):
             grid.y,
             normal.p,
             found,
-            Bent.plane(outcome.creepage, grid.y),
+            bent_rows(grid, outcome.creepage),
             approach=normal.approach,
             stiffness=normal.stiffness,
             iterations=normal.iterations + found.iterations,

@@ -21,6 +21,8 @@ from contact.geometry.surfaces.frame import Frame
 from contact.geometry.surfaces.slices import SliceCurve
 from contact.geometry.surfaces.spline import slopes
 from contact.halfspace import Gap
+from contact.halfspace.lattice import CurvedGap
+from contact.pair.curved import Elements
 
 #: Steps of Newton's iteration for the place of an element on the wheel and in the mesh; it moves by less than 1e-12 m.
 _STEPS = 12
@@ -76,27 +78,32 @@ def flattened(patch: SurfacePatch, pair: SurfacePair, pose: Pose, wheel: Wheel, 
     step : float
         Step along the profile [m]; that around the wheel is the length of the elements.
     """
-    mirror = 1.0 if pair.side == "right" else -1.0
-    gap, frame = patch.gap, patch.frame if mirror > 0.0 else patch.frame.mirrored
-    order = slice(None) if mirror > 0.0 else slice(None, None, -1)
-    x, y = np.meshgrid(gap.x, mirror * gap.y[order])
-    turn = turned(mirror * pose.roll, mirror * pose.yaw)
-    middle = np.array([0.0, mirror * pose.y, pair.z - pair.nominal_radius])
-    origin = middle + turn @ np.array([0.0, pair.tape, pair.nominal_radius])
-    placed = _Placed(wheel, frame, turn, origin)
-    here = turn.T @ (frame.origin - origin)  # the reference point, as the wheel's profile has it
-    reference = wheel.length(float(here[1])) + _rest(y[0, 0], step), float(here[0]) + _rest(x[0, 0], gap.dx)
-    s, u = placed.under(x, y, reference)
-    exact = placed.heights(s, u)[..., 2]
-    dx = gap.dx
-    i, j = (s - reference[0]) / step, (u - reference[1]) / dx
-    rows, columns = (math.ceil(float(np.abs(k).max())) + 2 for k in (i, j))
-    along, around = np.arange(-rows, rows + 1.0)[:, None], np.arange(-columns, columns + 1.0)
-    nodes = placed.heights(reference[0] + step * along, reference[1] + dx * around)
-    flat = _bilinear(nodes, x, y, i + rows, j + columns)
-    h = gap.h - patch.approach - np.where(np.isfinite(flat), flat - exact, 0.0)[order]
+    right = pair.side == "right"
+    gap, frame = patch.gap, patch.frame if right else patch.frame.mirrored
+    order = slice(None) if right else slice(None, None, -1)
+    x, y = np.meshgrid(gap.x, gap.y if right else -gap.y[order])
+    mesh = _Mesh.of(pair, pose, wheel, frame, (gap.dx, step), (x[0, 0], y[0, 0]))
+    h = gap.h - patch.approach - mesh.sag(frame, x, y)[order]
     approach = -float(h.min())
     return replace(patch, gap=Gap(gap.x, gap.y, h + approach), approach=approach)
+
+
+def flattened_rows(
+    rows: Elements, patch: SurfacePatch, pair: SurfacePair, pose: Pose, wheel: Wheel, step: float
+) -> Elements:
+    """Return elements on a curved surface with CONTACT's distance, as `flattened` does for a plane."""
+    right, gap = pair.side == "right", rows.gap
+    frame = patch.frame if right else patch.frame.mirrored
+    first = gap.y[0] if right else -gap.y[-1]
+    mesh = _Mesh.of(pair, pose, wheel, frame, (gap.dx, step), (gap.x[0], first))
+    h, mirror = gap.h - rows.approach, np.array([1.0, 1.0 if right else -1.0, 1.0])
+    for k in range(gap.y.size):
+        if h[k].min() < 0.0:
+            origin = (rows.on_rail[k, 0] - gap.x[0] * rows.axes[k, 0]) * mirror
+            row = Frame.turned(origin, float(rows.angle[k] * mirror[1]))
+            h[k] -= mesh.sag(row, gap.x[None, :], np.zeros((1, gap.x.size)))[0]
+    approach = -float(h.min())
+    return rows._replace(gap=CurvedGap(gap.x, gap.y, h + approach, gap.place, gap.tilt), approach=approach)
 
 
 def cornered(patch: SurfacePatch, side: str, roller: Profile) -> SurfacePatch:
@@ -160,6 +167,53 @@ class _Placed(NamedTuple):
             step_s, step_u = _solved(by_s, by_u, miss)
             s, u = np.clip(s + step_s, 0.0, self.wheel.s[-1]), u + step_u
         return s, u
+
+
+class _Mesh(NamedTuple):
+    """The mesh of a wheel that stands in the track: a node at `reference`, the steps along the profile and around."""
+
+    wheel: Wheel
+    turn: Array
+    origin: Array
+    reference: tuple[float, float]
+    steps: tuple[float, float]
+
+    @classmethod
+    def of(
+        cls,
+        pair: SurfacePair,
+        pose: Pose,
+        wheel: Wheel,
+        frame: Frame,
+        steps: tuple[float, float],
+        element: tuple[float, float],
+    ) -> _Mesh:
+        """Return the mesh with a node at the reference point of a frame, moved to the nearest `element` of the grid [m].
+
+        `steps` are those around the wheel and along its profile [m].
+        """
+        mirror = 1.0 if pair.side == "right" else -1.0
+        turn = turned(mirror * pose.roll, mirror * pose.yaw)
+        middle = np.array([0.0, mirror * pose.y, pair.z - pair.nominal_radius])
+        origin = middle + turn @ np.array([0.0, pair.tape, pair.nominal_radius])
+        here = turn.T @ (frame.origin - origin)  # the reference point, as the wheel's profile has it
+        reference = (
+            wheel.length(float(here[1])) + _rest(element[1], steps[1]),
+            float(here[0]) + _rest(element[0], steps[0]),
+        )
+        return cls(wheel, turn, origin, reference, steps)
+
+    def sag(self, frame: Frame, x: Array, y: Array) -> Array:
+        """Return by how much the mesh lies below the wheel along the normal of a frame [m]; 0 beyond it."""
+        placed, (s0, u0), (dx, step) = _Placed(self.wheel, frame, self.turn, self.origin), self.reference, self.steps
+        s, u = placed.under(x, y, self.reference)
+        exact = placed.heights(s, u)[..., 2]
+        i, j = (s - s0) / step, (u - u0) / dx
+        rows, columns = (math.ceil(float(np.abs(k).max())) + 2 for k in (i, j))
+        along, around = np.arange(-rows, rows + 1.0)[:, None], np.arange(-columns, columns + 1.0)
+        nodes = placed.heights(s0 + step * along, u0 + dx * around)
+        flat = _bilinear(nodes, x, y, i + rows, j + columns)
+        return np.where(np.isfinite(flat), flat - exact, 0.0)
 
 
 def _solved(first: Array, second: Array, right: Array) -> tuple[Array, Array]:

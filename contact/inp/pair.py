@@ -18,13 +18,14 @@ from contact.halfspace.lattice import Lattice
 from contact.inp import bodies, fast, single
 from contact.inp.case import Case
 from contact.inp.grid import material
-from contact.inp.mesh import Wheel, cornered, flattened, turned
+from contact.inp.mesh import Wheel, cornered, flattened, flattened_rows, turned
 from contact.inp.reasons import refuse, require_digits
 from contact.inp.results import PatchResult, Result
 from contact.inputs.creepage import Creepage
+from contact.pair.curved import Elements
 from contact.pair.elastic_rail import ElasticRail
 from contact.pair.halfspace import Instant
-from contact.pair.sliding import Roller, Sliding
+from contact.pair.sliding import Bodies, Roller
 from contact.pair.solution import Contact, PairSolution, Solved
 from contact.pair.transient import TransientPair
 from contact.pair.wheel_rail import WheelRailPair
@@ -67,6 +68,7 @@ class _FilePair(TransientPair):
         """Take what is given besides the motion."""
         self.case = case
         self.layer = single.layer(case) if case.digits["T"] else None
+        self.conformal, self.true_slip = case["SEARCH"] == 4, case["SEARCH"] == 3
         self.turns = case["MAXOUT"] if self.pair.material.coupling != 0.0 else 1
 
     def _lattice(self, at: Instant) -> Lattice:
@@ -74,11 +76,11 @@ class _FilePair(TransientPair):
             return super()._lattice(at)
         return Lattice.centred(self._spacing)
 
-    def _slide(self, patch: SurfacePatch, at: Instant, **options: Any) -> Sliding:
+    def _moving(self, at: Instant, **options: Any) -> Bodies:
         case = self.case
         if self.pair.rail.roller_radius is not None:
             options["roller"] = Roller(case["NOMRADR"], case["NOMRADR"])
-        return super()._slide(patch, at, curvature=case["CURV"], own_axis=False, **options)
+        return super()._moving(at, curvature=case["CURV"], own_axis=False, **options)
 
     def _rolling(self, patch: SurfacePatch, at: Instant) -> tuple[Creepage, float]:
         one = self._slide(patch, at)
@@ -88,15 +90,32 @@ class _FilePair(TransientPair):
         speed = one.mean if one.mean > 0.0 and not shift else 1.0
         return Creepage(one.x / speed, one.y / speed, one.spin / speed), speed
 
-    def _law(self, patch: SurfacePatch, at: Instant) -> Any:
-        return single.law(_at_patch(self.case, patch.angle, self.pair.side), 1, False) if self.case.digits["T"] else 0.0
+    def _law(self, patch: SurfacePatch, at: Instant, rows: Elements | None) -> Any:
+        case, side = self.case, self.pair.side
+        if not case.digits["T"]:
+            return 0.0
+        if rows is None or not self.conformal or case["ROWS"] != 1:
+            return single.law(_at_patch(case, patch.angle, side), 1, False)
+        inner = rows.angle[1:-1] * (1.0 if side == "right" else -1.0)
+        values: dict[str, Any] = {
+            name: tuple(np.interp(inner, case["ALPHA"], case[name]).tolist())
+            for name in _CONSTANTS
+            if isinstance(case.get(name), tuple)
+        }
+        return single.law(case.changed(**values), inner.size, False)
 
     def _solved(self, patch: SurfacePatch, at: Instant) -> Solved:
-        if self.wheel is not None:
+        if self.wheel is not None and not self.conformal:
             patch = flattened(patch, self.pair, self._pose, self.wheel, self.case["DS"])
-        if self.roller is not None:
+        if self.roller is not None and not self.conformal:
             patch = cornered(patch, self.pair.side, self.roller)
         return super()._solved(patch, at)
+
+    def _true(self, patch: SurfacePatch) -> Elements:
+        rows = super()._true(patch)
+        if self.wheel is None or not self.conformal:
+            return rows
+        return flattened_rows(rows, patch, self.pair, self._pose, self.wheel, self.case["DS"])
 
     def _pull(self, found: PairSolution) -> float:
         return float(turned(self.case["ROLL"], self.case["YAW"])[:, 0] @ np.asarray(found.force))

@@ -22,8 +22,6 @@ REASONS: dict[str, str] = {
     "temperature": "L = 6 by strips, or with unlike thermal constants",
     "factors": "IPLAN = 4: patches whose influence on each other is reduced",
     "hertz line": "IPOTCN = -4, -5, -6: line contact and SDEC",
-    "curved pair": "D = 4: a curved reference surface",
-    "true slip": "D = 3: slip on the true surfaces",
     "friction along the profile": "V = 1 by strips",
     "force in a shift": "F = 1 of module 1, FX_WS given, with T = 1",
     "layer on strips": "M = 4 on a wheel and a rail by strips",
@@ -48,7 +46,6 @@ REFUSED: dict[int, dict[str, dict[int, str]]] = {
         "B": {1: "thin sheet"},
         "M": {1: "viscoelastic"},
         "C3": {3: "bilinear", 4: "angle"},
-        "D": {3: "true slip", 4: "curved pair"},
     },
 }
 #: The same for the half space only: with `fast` strips take their place.

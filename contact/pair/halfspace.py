@@ -204,8 +204,8 @@ class HalfspacePair(AnyPair):
         """pose.z of the wheelset after the last search [m]."""
         return self.pair.z - float(self._moved[2])
 
-    def _bodies(self, at: Instant, **options: Any) -> Bodies:
-        """Return wheel and rail in motion, as the last search has left them."""
+    def _moving(self, at: Instant, **options: Any) -> Bodies:
+        """Return wheel and rail in motion, as the last search has left them. `options` are those of `Bodies`."""
         pair, rail = self.pair, at.irregularity
         y, z = pair.rail_origin
         origin = (y if pair.side == "right" else -y) + rail.y, z + rail.z
@@ -252,11 +252,11 @@ class HalfspacePair(AnyPair):
         speed = max(reference, self.pair.reference_speed)
         return Creepage(one.x / speed, one.y / speed, one.spin / speed), speed
 
-    def _slide(self, patch: SurfacePatch, at: Instant, **options: Any) -> Sliding:
-        """Return how the wheel slides over the rail at a patch, as rigid bodies. `options` are those of `Bodies`."""
+    def _slide(self, patch: SurfacePatch, at: Instant) -> Sliding:
+        """Return how the wheel slides over the rail at a patch, as rigid bodies."""
         ahead = np.array([self._moved[0], 0.0, 0.0])
         points = np.array(patch.position) + ahead, np.array(patch.wheel_position) + ahead
-        return self._bodies(at, **options).at(*points, patch.frame.axes)
+        return self._moving(at).at(*points, patch.frame.axes)
 
     def _solved(self, patch: SurfacePatch, at: Instant) -> Solved:
         """Return the patch with its solution."""

@@ -25,6 +25,7 @@ from contact.halfspace.state import State
 from contact.halfspace.third_body import ThirdBody
 from contact.inputs.creepage import Creepage
 from contact.instance.ownership import one_thread
+from contact.pair.curved import Elements, elements
 from contact.pair.elastic_rail import ElasticRail
 from contact.pair.halfspace import _IDEAL, _STRAIGHT, HalfspacePair, Instant
 from contact.pair.solution import PairSolution, Solved
@@ -76,6 +77,11 @@ class TransientPair(HalfspacePair):
         With the `spacing` of its elements.
     layer : contact.ThirdBody
         Layer between wheel and rail. Its plastic shear stays on the elements.
+    conformal : bool
+        Take elements on the curved surface between both bodies, with a contact angle for each row, and how they slide on
+        each other at each element. The influence of elements on each other stays that of a plane half space.
+    true_slip : bool
+        Take the latter only: elements in the plane, which slide as the surfaces above and below them do.
 
     Examples
     --------
@@ -90,8 +96,11 @@ class TransientPair(HalfspacePair):
     True
     """
 
-    def __init__(self, pair: SurfacePair, *, layer: ThirdBody | None = None) -> None:
+    def __init__(
+        self, pair: SurfacePair, *, layer: ThirdBody | None = None, conformal: bool = False, true_slip: bool = False
+    ) -> None:
         super().__init__(pair, layer=layer)
+        self.conformal, self.true_slip = bool(conformal), bool(true_slip)
         spacing = self.pair.division.spacing
         if spacing is None:
             raise ContactError("pair.spacing = None: the elements of steps need a size; give the SurfacePair a spacing")
@@ -246,18 +255,24 @@ class TransientPair(HalfspacePair):
         self._now = []
         return super()._solution(patches, at)
 
-    def _law(self, patch: SurfacePatch, at: Instant) -> Any:
-        """Return the friction of a patch."""
+    def _law(self, patch: SurfacePatch, at: Instant, rows: Elements | None) -> Any:
+        """Return the friction of a patch, and of its rows if they lie on the true surfaces."""
         return at.friction
 
     def _solved(self, patch: SurfacePatch, at: Instant) -> Solved:
         """Return the patch with its solution, and note what it leaves."""
-        gap, step = patch.gap, self._step
-        creepage, speed = self._rolling(patch, at)
+        step = self._step
+        creepage, speed = reference, _ = self._rolling(patch, at)
+        slip: Any = 0.0
+        rows = self._true(patch) if self.conformal or self.true_slip else None
+        if rows is not None:
+            patch = replace(patch, gap=rows.gap, approach=rows.approach)
+            slip, creepage = self._slip(rows, at) / speed, Creepage()
+        gap = patch.gap
         contact = Transient(
             gap,
             approach=patch.approach,
-            friction=self._law(patch, at),
+            friction=self._law(patch, at, rows),
             material=self.pair.material,
             speed=speed,
             layer=self.layer,
@@ -267,6 +282,7 @@ class TransientPair(HalfspacePair):
         s = float(np.interp(patch.on_rail[0], *self._profile(at.station)))
         s = s if self.pair.side == "right" else -s
         here = Left(float(gap.x[0]), float(gap.x[0]) + u, float(gap.y[0]) + s, contact.state)
+        contact.change(slip=slip)
         if math.isinf(step.distance):
             found = contact.roll_on(creepage)
         else:
@@ -276,7 +292,18 @@ class TransientPair(HalfspacePair):
             else:
                 found = contact.roll(creepage, distance=step.distance, sliding=step.sliding)
         self._now.append(here._replace(state=contact.state))
-        return Solved(patch, found, patch.frame.axes)
+        return Solved(patch, found if rows is None else replace(found, creepage=reference), patch.frame.axes)
+
+    def _true(self, patch: SurfacePatch) -> Elements:
+        """Return the elements of a patch on the true surfaces."""
+        return elements(self.pair, patch, self.conformal)
+
+    def _slip(self, rows: Elements, at: Instant) -> Array:
+        """Return the velocity of the wheel against the rail at each element, in the axes of its row [m/s]."""
+        ahead = np.array([self._moved[0], 0.0, 0.0])
+        bodies = self._moving(at)
+        v = bodies.wheel.at(rows.on_wheel + ahead) - bodies.rail.at(rows.on_rail + ahead)
+        return np.einsum("rai,rci->arc", rows.axes[:, :2], v)
 
     def _continued(self, here: Left) -> State:
         """Return what all patches of the last step have left on a grid, each where it was in contact."""

@@ -165,3 +165,16 @@ def test_strips_refuse_what_needs_the_half_space_by_name(tmp_path):
     cases = inp.read(tmp_path / "case.inp")
     assert inp.solve(cases, fast=True)[0].refused == "strips"
     assert set(inp.refusals(cases, fast=True)) <= set(REASONS)
+
+
+@pytest.mark.parametrize("search", [3, 4])
+def test_a_search_on_true_surfaces_gives_a_narrow_patch_the_forces_of_its_plane(tmp_path, search):
+    lines = ("0. 0. 0.004 0. 0. 0.", "1000. 0.1 0. 0. 0. -10.002")
+    plane = sequence(tmp_path, [("1203000", False, lines)])[0].values
+    text = (tmp_path / "case.inp").read_text().replace("0022033", f"00{search}2033")
+    (tmp_path / "true.inp").write_text(text)
+    found = inp.solve(inp.read(tmp_path / "true.inp"))[0]
+    assert found.case["SEARCH"] == search
+    assert found.refused == ""
+    for name in ("FX(TR)", "FY(TR)", "FZ(TR)"):
+        assert found.values[name] == pytest.approx(plane[name], abs=0.01 * plane["FZ(TR)"])

@@ -158,3 +158,27 @@ def test_a_roller_is_that_of_the_roller_rig():
     assert a.creepage.spin == pytest.approx(b.creepage.spin, rel=0.01)
     with pytest.raises(contact.ContactError, match="radius"):
         RailSurface.roller(level, 20.0)
+
+
+def test_a_curved_surface_of_a_narrow_patch_is_its_plane():
+    surfaces, motion = single(circle(), spacing=6e-5), Velocity(1.0, y=1e-4, spin=-1.0 / 0.1 * 1.0002)
+    plane_, bent, slipping = (
+        TransientPair(surfaces, **kind).solve(Pose(y=3e-3, z=3e-6, roll=0.03), motion)
+        for kind in ({}, {"conformal": True}, {"true_slip": True})
+    )
+    for found in (bent, slipping):
+        assert found.force == pytest.approx(plane_.force, abs=5e-3 * plane_.Q)
+        assert found.max_pressure == pytest.approx(plane_.max_pressure, rel=2e-3)
+        assert found.contacts[0].creepage == plane_.contacts[0].creepage
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(("side", "mirror"), [("right", 1.0), ("left", -1.0)])
+def test_a_conformal_patch_at_the_flange_root_is_that_of_strips(side, mirror):
+    surfaces = SurfacePair(WHEEL, RAIL, side=side, spacing=2e-4)
+    pose = Pose(y=mirror * 5.5e-3)
+    exact = TransientPair(surfaces, conformal=True).solve(pose, DRIVEN, vertical=3e4)
+    strips = WheelRailPair(Pair(WHEEL, RAIL, side=side), conformal=True).solve(pose, DRIVEN, vertical=3e4)
+    assert exact.force == pytest.approx(strips.force, abs=0.01 * 0.3 * 3e4)
+    assert exact.contacts[0].max_pressure == pytest.approx(strips.contacts[0].max_pressure, rel=0.01)
+    assert exact.contacts[0].solution.bend > 0.03
