@@ -21,6 +21,7 @@ from contact.solve import solve
 from contact.solver import THESIS, Solver
 from contact.theory.hertz import HertzContact, hertz
 from contact.version import __version__ as __version__
+from contact.view.notebook import draw_with
 
 if TYPE_CHECKING:
     from contact.study.case import Case
@@ -55,6 +56,15 @@ __all__ = [
     "methods",
     "solve",
 ]
+
+
+def _figures() -> Any:
+    from contact import plot
+
+    return plot
+
+
+draw_with(_figures)
 
 
 def __getattr__(name: str) -> Any:

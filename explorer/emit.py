@@ -14,10 +14,11 @@ from typing import Any
 
 from llvmlite import binding as llvm
 
+from contact.compile import c_tables
+from contact.compile.emit import data_as_ir, refuse_the_rest
+from contact.compile.objects import only
 from contact.core import library
-from fmu_src.native import c_tables, kinds, systems
-from fmu_src.native.emit import data_as_ir, refuse_the_rest
-from fmu_src.native.objects import only
+from fmu_src.native import kinds, systems
 
 TRIPLE = "wasm32-unknown-unknown"
 FEATURES = "+simd128,+bulk-memory,+bulk-memory-opt,+nontrapping-fptoint,+sign-ext,+mutable-globals"

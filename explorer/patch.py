@@ -8,10 +8,11 @@ from typing import Any
 import numpy as np
 from numba import carray
 
+from contact.compile.library import Added
 from contact.kernels.block import ahead
 from contact.kernels.pair import solve_patch
 from contact.kernels.rows import DamageField, Field, Strip
-from fmu_src.native import wheel_rail_pair
+from fmu_src.native import kinds, wheel_rail_pair
 from fmu_src.tables.wheel_rail_pair import ACCUMULATED, table
 
 #: Rows of a patch that the page draws, one number a strip.
@@ -21,6 +22,11 @@ FIELDS = (Field.X, Field.DX, Field.P, Field.QX, Field.QY, Field.SX, Field.SY, Fi
 N_ELEMENT_ROWS = len(FIELDS) + 1
 
 _STRIPS, _FIELDS = np.array(STRIPS), np.array(FIELDS)  # an index into a tuple could raise an exception
+
+
+def added() -> list[Added]:
+    """Return what the page adds to the kernels (`contact.compile.library`). It compiles them itself."""
+    return kinds.of_kind("page", entries(), "")
 
 
 def entries() -> dict[str, Callable[..., Any]]:

@@ -3,6 +3,7 @@
 import ast
 import re
 from collections.abc import Iterator
+from graphlib import CycleError, TopologicalSorter
 from pathlib import Path
 
 import pytest
@@ -15,10 +16,11 @@ def sources(*folders: str) -> list[Path]:
     return sorted(path for folder in folders for path in (ROOT / folder).rglob("*.py"))
 
 
-def imports(path: Path) -> Iterator[str]:
-    """Yield the full names that a file imports, `a.b.c` for `from a.b import c`."""
+def imports(path: Path, inner: bool = True) -> Iterator[str]:
+    """Yield the full names that a file imports, `a.b.c` for `from a.b import c`; without `inner` not those of functions."""
     package = path.relative_to(ROOT).parent.parts
-    for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+    tree = ast.parse(path.read_text(encoding="utf-8"))
+    for node in ast.walk(tree) if inner else tree.body:
         if isinstance(node, ast.Import):
             yield from (alias.name for alias in node.names)
         elif isinstance(node, ast.ImportFrom):
@@ -149,6 +151,52 @@ def test_imports_are_found(line, name, tmp_path, monkeypatch):
     path = tmp_path / "tests" / "some.py"
     path.write_text(line)
     assert list(imports(path)) == [name]
+
+
+def fixed_imports(path: Path) -> Iterator[str]:
+    """Yield what a file imports when it is imported itself, and by a string anywhere."""
+    yield from imports(path, inner=False)
+    for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+        if isinstance(node, ast.Call) and ast.unparse(node.func).endswith("import_module"):
+            yield from (word.value for word in ast.walk(node) if isinstance(word, ast.Constant))
+
+
+def module_of(name: str) -> str:
+    """Return the module of the library in which a name is; empty for other names, and for packages as a whole."""
+    parts = name.split(".")
+    while len(parts) > 1:
+        if ROOT.joinpath(*parts).with_suffix(".py").is_file() or ROOT.joinpath(*parts, "__init__.py").is_file():
+            return ".".join(parts)
+        parts.pop()
+    return ""
+
+
+def circle(modules: dict[str, set[str]]) -> list[str]:
+    """Return modules of which each imports the next and the last the first; none if there is no such circle."""
+    try:
+        tuple(TopologicalSorter(modules).static_order())
+    except CycleError as error:
+        return error.args[1]
+    return []
+
+
+def test_no_import_closes_a_circle():
+    """Nor does one by a string, `import_module("contact.plot")`, which import-linter does not see."""
+    modules = {}
+    for path in sources("contact", "fmu_src", "models"):
+        parts = path.relative_to(ROOT).with_suffix("").parts
+        name = ".".join(parts[:-1] if path.stem == "__init__" else parts)
+        modules[name] = {module for one in fixed_imports(path) if (module := module_of(one)) != name} - {""}
+    assert circle(modules) == []
+
+
+def test_a_circle_by_a_string_is_found(tmp_path, monkeypatch):
+    monkeypatch.setattr(f"{__name__}.ROOT", tmp_path)
+    (tmp_path / "tests").mkdir()
+    one, other = tmp_path / "tests" / "one.py", tmp_path / "tests" / "other.py"
+    one.write_text("from tests.other import x")
+    other.write_text('def f():\n    return import_module("tests.one")')
+    assert circle({f"tests.{path.stem}": set(map(module_of, fixed_imports(path))) for path in (one, other)})
 
 
 def test_every_page_that_a_source_names_exists():

@@ -18,6 +18,7 @@ import subprocess
 import sys
 import tempfile
 import time
+import tomllib
 import warnings
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
@@ -34,17 +35,28 @@ _HERE = Path(__file__).parents[1]
 _ROOT = _HERE.parent
 #: Name of the library on this system.
 NAME = {"win32": "wheelrail.dll", "darwin": "libwheelrail.dylib"}.get(sys.platform, "libwheelrail.so")
-#: This system, by its name in `fmu_src.native.systems`.
+#: This system, by its name in FMI 2.0 or, for 64-bit ARM, in 3.0.
 _ARM = platform.machine().lower() in ("aarch64", "arm64")
 SYSTEM = {"win32": "win64", "darwin": "aarch64-darwin" if _ARM else "darwin64"}.get(
     sys.platform, "aarch64-linux" if _ARM else "linux64"
 )
 #: The library of an installed package.
 INSTALLED = _HERE / "library" / SYSTEM / NAME
-#: Folders of a checkout that the library is made from, and the packages that compile it.
-_MADE_FROM, _TOOLS = ("contact", "models", "fmu_src"), ("numba", "llvmlite", "numpy")
-#: Programs in `fmu_src.native` that build it.
-_BUILDER = ("library.py", "emit.py", "objects.py", "c_tables.py", "ir_to_c.py", "ir_function.py", "ir_text.py")
+#: What a checkout says of its library.
+_PROJECT = _ROOT / "pyproject.toml"
+#: Packages that compile it.
+_TOOLS = ("numba", "llvmlite", "numpy")
+#: Environment variables of the builder, which must be set before numba is imported (`contact.compile.emit`).
+ENVIRONMENT = {
+    "CONTACT_JIT": "build",
+    "NUMBA_CPU_NAME": "generic",
+    "NUMBA_CPU_FEATURES": "",
+    "NUMBA_OPT": "0",
+    "NUMBA_LOOP_VECTORIZE": "0",
+    "NUMBA_SLP_VECTORIZE": "0",
+    "NUMBA_DISABLE_INTEL_SVML": "1",
+    "NUMBA_DISABLE_ERROR_MESSAGE_HIGHLIGHTING": "1",  # of overloads that do not fit, which nobody reads
+}
 #: Libraries that were not used for this time [s] are removed. At most `_MOST` are kept.
 _STALE, _MOST = 30 * 86400.0, 8
 PREFIX = "wheelrail-contact-"
@@ -88,7 +100,7 @@ def address(symbol: str) -> int:
 
 
 def constants(k: int, shape: tuple[int, ...]) -> NDArray[np.float64]:
-    """Return array `k` of the constant arrays that the kernels read (`fmu_src.native.c_tables`). It is read-only."""
+    """Return array `k` of the constant arrays that the kernels read (`contact.compile.c_tables`). It is read-only."""
     numbers = (ctypes.c_double * math.prod(shape)).from_address(_loaded().constants(k))
     found = np.frombuffer(memoryview(numbers).cast("B")).reshape(shape)
     found.setflags(write=False)
@@ -167,7 +179,7 @@ _KEPT: list[object] = []
 
 
 def _among_systems() -> Path | None:
-    """Return the library of this system if this checkout has built those of all systems (`fmu_src.native.systems`)."""
+    """Return the library of this system if this checkout has built those of all systems."""
     found = cache_folder().glob(f"{PREFIX}{fingerprint()}-systems-*/linked-*/{SYSTEM}/{NAME}")
     return max(found, key=lambda path: path.stat().st_mtime, default=None)
 
@@ -175,7 +187,7 @@ def _among_systems() -> Path | None:
 def cached() -> Path:
     """Return the folder of the library of this checkout. Build it if it is not there."""
     folder = cache_folder() / (PREFIX + fingerprint())
-    if not folder.is_dir() and not (_ROOT / "fmu_src" / "native").is_dir():
+    if not folder.is_dir() and not registered()["kernels"]:
         raise ImportError(
             f"wheelrail-contact has no compiled library for {platform.system()} on {platform.machine()}: {INSTALLED} is "
             "missing. Install a wheel for this system, or build one from the sources (CONTRIBUTING.md)."
@@ -218,7 +230,7 @@ def locked(folder: Path) -> Iterator[None]:
 
 
 def _run_builder(folder: Path, *options: str) -> None:
-    """Run the builder (`fmu_src.native.library`) in a process of its own. On a terminal a line says so."""
+    """Run the builder (`contact.compile.library`) in a process of its own. On a terminal a line says so."""
     try:
         version("numba")
     except PackageNotFoundError:
@@ -228,8 +240,9 @@ def _run_builder(folder: Path, *options: str) -> None:
         ) from None
     shows = sys.stderr is not None and sys.stderr.isatty()
     begin = time.monotonic()
-    command = [sys.executable, "-m", "fmu_src.native.library", str(folder), *options]
-    own = os.environ | {"PYTHONPATH": os.pathsep.join(filter(None, (str(_ROOT), os.environ.get("PYTHONPATH"))))}
+    command = [sys.executable, "-m", "contact.compile.library", str(folder), *options]
+    path = os.pathsep.join(filter(None, (str(_ROOT), os.environ.get("PYTHONPATH"))))
+    own = os.environ | ENVIRONMENT | {"PYTHONPATH": path}
     with subprocess.Popen(
         command, cwd=_ROOT, env=own, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True
     ) as process:
@@ -273,10 +286,30 @@ def _processor() -> str:
 
 def sources() -> list[Path]:
     """Return the sources of the library: all files with kernels, the C interface and the builder."""
-    files = [path for name in _MADE_FROM for path in (_ROOT / name).rglob("*.py") if _has_kernels(path)]
-    builder = [*(_HERE / "core").glob("*.py"), *(_ROOT / "fmu_src" / "native" / name for name in _BUILDER)]
+    builder = [path for name in ("core", "compile", "kernels") for path in (_HERE / name).rglob("*.py")]
     in_c = [path for name in ("c", "include") for path in (_HERE / name).iterdir()]
-    return sorted({*files, *builder, *in_c, *(_HERE / "kernels").rglob("*.py")})
+    return sorted({*(path for path, _ in modules()), *builder, *in_c})
+
+
+@cache
+def registered() -> dict[str, list[str]]:
+    """Return what pyproject.toml says of the library: packages with kernels, and modules that add functions for C.
+
+    A package that is installed by a wheel has no such file. It builds nothing.
+    """
+    told = tomllib.loads(_PROJECT.read_text(encoding="utf-8")) if _PROJECT.is_file() else {}
+    return {"kernels": [], "added": [], **told.get("tool", {}).get("contact", {}).get("library", {})}
+
+
+def modules() -> list[tuple[Path, str]]:
+    """Return path and name of the modules with kernels in all packages that pyproject.toml lists."""
+    packages = [_ROOT / name for name in registered()["kernels"]]
+    return [
+        (path, ".".join(path.relative_to(package.parent).with_suffix("").parts))
+        for package in packages
+        for path in sorted(package.rglob("*.py"))
+        if _has_kernels(path)
+    ]
 
 
 def _has_kernels(path: Path) -> bool:

@@ -2,7 +2,7 @@
 
 A record is a numpy structured type, aligned like a C struct: ``case.mu``, ``result.Fx``. All members are 8 bytes wide
 (int64 or float64), so a record fills a whole number of float64 and can lie anywhere in a block of them.
-`fmu_src.native.records` writes the same records as a C header.
+`contact.compile.c_header` writes the same records as a C header.
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ LARGEST_ANGLE, LARGEST_RAIL_ROLL = 0.1, 0.05
 #: Distance of the tape circle from the back of the flange [m] (EN 13715).
 TAPE_FROM_FLANGE_BACK = 0.070
 
-#: Record → member → meaning. `fmu_src.native.records` makes the C header from it.
+#: Record → member → meaning. `contact.compile.c_header` makes the C header from it.
 MEANING: dict[str, dict[str, str]] = {}
 
 

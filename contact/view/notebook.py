@@ -6,9 +6,8 @@ escaped.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from html import escape
-from importlib import import_module
 from typing import Any
 
 import numpy as np
@@ -24,15 +23,24 @@ MOST = 240
 _CELL = "text-align:left;padding:1px 10px 1px 0;border:0;vertical-align:top"
 
 
+#: What `draw_with` was given.
+_FIGURES: list[Callable[[], Any]] = []
+
+
+def draw_with(figures: Callable[[], Any]) -> None:
+    """Let methods of records draw with what `figures()` returns: functions by their names."""
+    _FIGURES[:] = [figures]
+
+
 def figures() -> Any:
-    """Return `contact.plot`, imported when a figure is asked for, since nothing else of the library needs matplotlib.
+    """Return the functions that draw. `contact` gives its `plot`, imported when a figure is asked for: it needs matplotlib.
 
     Raises
     ------
     ImportError
         If matplotlib is missing; the message names the extra.
     """
-    return import_module("contact.plot")
+    return _FIGURES[0]()
 
 
 def table(headings: Sequence[str], rows: Iterable[Sequence[str]], caption: str = "") -> str:

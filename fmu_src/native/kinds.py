@@ -30,6 +30,9 @@ from collections.abc import Callable
 from importlib import import_module
 from typing import Any
 
+from contact.compile.library import Added
+from .component import Given
+
 #: Function → types of its result and of its arguments without `given`: a number of 64 bits, or a pointer to float64.
 SIGNATURES: dict[str, tuple[str, tuple[str, ...]]] = {
     "memory": ("i64", ("ptr",)),
@@ -58,10 +61,29 @@ def names(kind: str) -> list[str]:
     return [f"{kind}_{name}" for name in SIGNATURES]
 
 
-def entries(module: str) -> dict[str, Callable[..., Any]]:
-    """Return the functions of the kind in a module, by the names in `SIGNATURES`."""
-    given = import_module(module).entries()
-    return {name: given.get(f"model_{name}", _UNNEEDED.get(name)) for name in SIGNATURES}
+def added() -> list[Added]:
+    """Return what native FMUs add to the libraries of all systems (`contact.compile.library`)."""
+    return [
+        one for kind, module in KINDS.items() for one in of_kind(kind, import_module(module).entries(), f"{kind}.c")
+    ]
+
+
+def of_kind(kind: str, entries: dict[str, Callable[..., Any]], file: str) -> list[Added]:
+    """Return the functions of a kind, given those by the names in `SIGNATURES` that it needs."""
+    made: dict[str, Callable[..., Any]] = {name: entries.get(f"model_{name}") or _UNNEEDED[name] for name in SIGNATURES}
+    return [
+        Added(f"{kind}_{name}", made[name], result, arguments, _given, file)
+        for name, (result, arguments) in SIGNATURES.items()
+    ]
+
+
+def _given(tables: Any) -> Any:
+    """Return numba's type of `Given`."""
+    from numba import types
+
+    from contact.compile.pointers import Doubles
+
+    return types.NamedTuple((Doubles, Doubles, tables), Given)
 
 
 def _nothing(values: Any, work: Any, given: Any) -> int:
@@ -73,4 +95,9 @@ def _no_field(values: Any, work: Any, k: Any, given: Any) -> int:
 
 
 #: What stands for functions that a kind does not need.
-_UNNEEDED = {"start": _nothing, "lazy": _nothing, "jacobian": _nothing, "field": _no_field}
+_UNNEEDED: dict[str, Callable[..., Any]] = {
+    "start": _nothing,
+    "lazy": _nothing,
+    "jacobian": _nothing,
+    "field": _no_field,
+}

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 from pathlib import Path
 
+from contact.compile.libm import ZIG
 from ..place import licence
-from .libm import ZIG
 
 _OVERVIEW = """\
 Contents of this FMU and their licences:

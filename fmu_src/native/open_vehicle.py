@@ -7,12 +7,13 @@ from typing import Any
 from contact_models.vehicle.kernels import motion
 from numba import carray
 
+from contact.compile.pointers import numbers_of
+from contact.core import arranging
 from contact.kernels.block import records
 from contact.kernels.records import GIVEN
 from ..tables.open_vehicle import table
 from .component import places
 from .components import OpenFailure
-from .memory import compiled, numbers_of
 from .vehicle_parts import (
     arrange,
     constants_of,
@@ -30,7 +31,7 @@ _N_PLACES, _N_GIVEN = len(_AT), GIVEN.itemsize // 8
 _ENDED, _LOST = OpenFailure.ENDED, OpenFailure.LOST
 
 
-@compiled
+@arranging
 def _parts_of(values, work, given):
     """Return the values as an array, the record `places` in an array, the vehicle and the total size in numbers."""
     rows, _ = records(given.own, 0, 1, _AT)
@@ -41,7 +42,7 @@ def _parts_of(values, work, given):
     return carray(values, (at.n_values,)), rows, parts, end
 
 
-@compiled
+@arranging
 def _take_forces(v, at, parts):
     for w in range(2 * at.n_axles):
         wheel = parts.scratch.wheels[w]
@@ -53,7 +54,7 @@ def _take_forces(v, at, parts):
         wheel.normal, wheel.dissipation, wheel.elastic, wheel.T_gamma, wheel.status = 0.0, 0.0, 0.0, 0.0, 0.0
 
 
-@compiled
+@arranging
 def _report(v, at, parts):
     n_wheels = 2 * at.n_axles
     for w in range(n_wheels):

@@ -10,6 +10,8 @@ import numpy as np
 from numba import carray
 
 import contact
+from contact.compile.pointers import numbers_of
+from contact.core import arranging
 from contact.damage import DamageParameters
 from contact.geometry.wheelset import TAPE_FROM_FLANGE_BACK
 from contact.kernels import block
@@ -32,7 +34,6 @@ from ..tables.solver import DAMAGE_OUTPUTS
 from ..tables.wheel_rail_pair import LOAD_KIND, PATCH, PATCHES, SIDE
 from ..variables import Table
 from .components import Failure
-from .memory import compiled, numbers_of
 from .wires import MATERIAL, case_reader, choose, constant, reader, references, size_of, writer
 
 _HEIGHTS = {"NormalForce": Height.LOAD, "Position": Height.GIVEN, "VerticalForce": Height.VERTICAL}
@@ -55,14 +56,14 @@ _OUTPUTS = {
     "used_friction": "used_friction",
     **DAMAGE_OUTPUTS,
 }
-_steps = compiled(creepage_steps)
+_steps = arranging(creepage_steps)
 
 
 def sizer(table: Table) -> Callable[..., Any]:
     """Return a compiled function that returns the sizes of the workspace for the parameters."""
     at = references(table)
 
-    @compiled
+    @arranging
     def size(v):
         n_strips, n_elements = int(v[at.resolution_n_strips]), int(v[at.resolution_n_elements])
         return size_of(int(v[at.method_normal]), n_strips, n_elements, int(v[at.resolution_n_samples]))
@@ -75,7 +76,7 @@ def parameter_setter(table: Table) -> Callable[..., Any]:
     at, rows = references(table), constant(table)
     read_material = reader(table, CASE, {**MATERIAL, "patches.surface": "conformal"})
 
-    @compiled
+    @arranging
     def set_parameters(v, origin_y, origin_z, bench):
         motion = bench.search.motion[0]
         motion.radius = v[at.wheel_radius]
@@ -102,7 +103,7 @@ def step_solver(table: Table) -> Callable[..., Any]:
     at, rows = references(table), constant(table)
     read_surface = case_reader(table, {"velocity.x": "speed"})
 
-    @compiled
+    @arranging
     def solve(values, v, piece, bench):
         """Solve for `v`, which are `values` as an array. `piece` is the size of the memory of a patch."""
         read_surface(v, rows, bench.case)
@@ -117,7 +118,7 @@ def step_solver(table: Table) -> Callable[..., Any]:
     return solve
 
 
-@compiled
+@arranging
 def _failure(code):
     """Return the number of the failure for a value of `NoAnswer`, 0 for none."""
     if code == NoAnswer.NO_OVERLAP:
@@ -136,7 +137,7 @@ def reporter(table: Table) -> Callable[..., Any]:
     at, rows = references(table), constant(table)
     write = writer(table, TOTAL, _OUTPUTS)
 
-    @compiled
+    @arranging
     def report(v, bench):
         total = bench.total[0]
         write(v, rows, bench.total)
@@ -157,7 +158,7 @@ def deriver(table: Table) -> Callable[..., Any]:
     """Return a compiled function that fills `derived` from the last solution of a bench (`components.PAIR_DERIVED`)."""
     at = references(table)
 
-    @compiled
+    @arranging
     def derive(values, v, bench, aside, derived):
         given, _ = block.records(values, at.pose_y, 1, GIVEN)
         n = derive_pair(_HEIGHT[int(v[at.load_kind]) - 1], given[0], bench, aside)
@@ -177,7 +178,7 @@ def differ(table: Table) -> Callable[..., Any]:
     """Return a compiled function that returns the step of a variable for difference quotients."""
     at = references(table)
 
-    @compiled
+    @arranging
     def difference(v, reference):
         """Return a step so small that elements hardly ever change from stick to slip within it.
 

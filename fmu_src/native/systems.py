@@ -18,15 +18,13 @@ from shutil import copy
 from contact.core import library
 from .kinds import KINDS, names
 
-#: Beginning of the names of the functions that the C interface calls.
-PREFIX = "wrk"
 _HERE = Path(__file__).parent
 _ROOT = _HERE.parents[1]
 #: The libraries of an installed package.
 INSTALLED = library.INSTALLED.parents[1]
-#: The C sources of the library: the C interface, and the wrapper that makes an FMU of it.
+#: Headers of the C interface, the C source that chooses the kernels for the processor, and the wrapper that makes an FMU of it.
 INCLUDE = library.get_include()
-C_SOURCES = [INCLUDE.parent / "c" / "wheelrail.c", _HERE / "c_library" / "processor.c"]
+PROCESSOR = _HERE / "c_library" / "processor.c"
 WRAPPER = sorted((_HERE / "c").iterdir())
 #: The C source of the library that FMUs for hosts with Python have in front of pythonfmu's.
 ENTRY = sorted((_HERE.parent / "python" / "c").iterdir())
@@ -62,15 +60,8 @@ _WITHOUT = {
         "validation_cases",
         "check",
     ),
-    *("terminals", "c_header", "headers", "libm", "licences", "linking", "packaging", "systems", "table"),
+    *("terminals", "headers", "licences", "packaging", "systems", "table"),
 }
-
-
-def flags(folder: Path) -> list[str]:
-    """Return the flags of a C compiler for the C interface. `folder` has the declarations of its entries."""
-    import contact
-
-    return [f"-I{folder}", f"-I{INCLUDE}", f'-DWR_VERSION="{contact.__version__}"']
 
 
 def folder(systems: Sequence[str] = USUAL, say: Callable[[str], None] = print) -> Path:
@@ -89,7 +80,7 @@ def folder(systems: Sequence[str] = USUAL, say: Callable[[str], None] = print) -
             )
         return INSTALLED
     compiled = kernels(say)
-    made = compiled / f"linked-{digest(*WRAPPER, *C_SOURCES, *INCLUDE.iterdir(), *_HERE.glob('l*.py'), *ENTRY)}"
+    made = compiled / f"linked-{digest(*WRAPPER, PROCESSOR, _HERE / 'licences.py', *ENTRY)}"
 
     def missing() -> list[str]:
         return [system for system in systems if not (made / system / SYSTEMS[system]).is_file()]
@@ -127,10 +118,10 @@ def digest(*paths: Path) -> str:
 
 def _link(compiled: Path, made: Path, systems: Sequence[str], say: Callable[[str], None]) -> None:
     try:
+        from contact.compile.linking import link
         from ..python import entry
         from .headers import HEADERS
         from .licences import licences
-        from .linking import link
     except ModuleNotFoundError as error:
         raise ImportError(f"{error}: to build native FMUs  pip install 'wheelrail-contact[native]'") from None
     sources = made / "sources"
@@ -139,9 +130,10 @@ def _link(compiled: Path, made: Path, systems: Sequence[str], say: Callable[[str
     for path in (*headers, *(path for path in compiled.glob("*.c") if path.name != "kernels.c")):
         copy(path, sources)
     (sources / "build.h").write_text(header("wheelrail", tuple(KINDS), in_c=False), encoding="utf-8")
+    in_c, include = [PROCESSOR, *(path for path in WRAPPER if path.suffix == ".c")], (WRAPPER[0].parent, sources)
     for system in systems:
         say(f"linking the library for {system}")
-        link(system, SYSTEMS[system], compiled, made)
+        link(system, made / system / SYSTEMS[system], compiled, in_c, include)
     entry.build([one for one in systems if one in entry.FILES], made)
     (made / "licenses").mkdir(exist_ok=True)
     for name, text in licences(HEADERS):

@@ -15,7 +15,8 @@ from contact_models.vehicle.kernels.layout import ELASTIC, Book
 from numba import carray, types
 
 from contact import Status
-from contact.core import group
+from contact.compile.pointers import TYPES, Doubles, integers_of, numbers_of
+from contact.core import arranging, group
 from contact.kernels.block import ahead, matrix, next_line, records, vector
 from contact.kernels.geometry.prepare import rail_origin, turn
 from contact.kernels.records import GIVEN
@@ -26,7 +27,6 @@ from ..variables import Causality, identifier
 from .component import places
 from .components import Failure
 from .kinds import SIGNATURES
-from .memory import TYPES, Doubles, compiled, integers_of, numbers_of
 from .vehicle_parts import (
     arrange,
     constants_of,
@@ -84,19 +84,19 @@ class Contacts(NamedTuple):
     size: Any
 
 
-@compiled
+@arranging
 def _places(given):
     """Return the record `places`, as an array of one."""
     return records(given.own, 0, 1, _AT)[0]
 
 
-@compiled
+@arranging
 def _starts(given):
     """Return the record as an array."""
     return carray(integers_of(_places(given)), (_N_PLACES,))
 
 
-@compiled
+@arranging
 def _lay(values, work, given):
     """Return the vehicle, its contacts, the place of the turned rail and the total size in numbers."""
     resources, at = given.resources, _places(given)[0]
@@ -116,7 +116,7 @@ def _lay(values, work, given):
     return parts, contacts, turned, works_at + 2 * size
 
 
-@compiled
+@arranging
 def _prepare_pairs(v, contacts, given):
     """Fill values and workspaces of both sides; return 0 or the pair's code."""
     for side in range(2):
@@ -135,7 +135,7 @@ def _prepare_pairs(v, contacts, given):
     return 0
 
 
-@compiled
+@arranging
 def _solve(contacts, w, given):
     """Solve the contact of wheel `w` for the values of its side; return the pair's code."""
     side, memory = w % 2, contacts.memories[w]
@@ -152,7 +152,7 @@ def _solve(contacts, w, given):
     return code
 
 
-@compiled
+@arranging
 def _begin(v, at, parts, contacts, given):
     """Return 0 or the code of a contact that has no answer."""
     model, speed = parts.model, v[at.speed]
@@ -174,7 +174,7 @@ def _begin(v, at, parts, contacts, given):
     return 0
 
 
-@compiled
+@arranging
 def _take(v, starts, values, wheel, w):
     """Enter what the contact of wheel `w` does to the vehicle, and write its outputs."""
     wheel.longitudinal, wheel.lateral = values[_ITS.force_x], values[_ITS.force_y]
@@ -196,7 +196,7 @@ def _take(v, starts, values, wheel, w):
         v[starts[_COPIED[i, 1]] + w] = values[_COPIED[i, 0]]
 
 
-@compiled
+@arranging
 def _press(v, parts, contacts, h, given):
     """Solve all contacts, add up their totals over `h` [s]; return the worst status or the code of a failure."""
     worst, starts = 0, _starts(given)
@@ -217,7 +217,7 @@ def _press(v, parts, contacts, h, given):
     return worst
 
 
-@compiled
+@arranging
 def _advance(v, at, parts, contacts, h, given):
     """Advance by `h` [s] in even steps; return a status or the number of a failure."""
     model, state, scratch, motions, speed = parts.model, parts.state, parts.scratch, parts.motions, v[at.speed]
@@ -237,7 +237,7 @@ def _advance(v, at, parts, contacts, h, given):
     return code
 
 
-@compiled
+@arranging
 def _report(v, at, parts, contacts, total_at):
     write_motion(v, at.distance, at.body_x, parts)
     books = parts.state.books

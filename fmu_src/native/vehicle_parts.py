@@ -23,11 +23,11 @@ from contact_models.vehicle.kernels.layout import (
 )
 from numba import carray
 
-from contact.core import group
+from contact.compile.pointers import integers_of
+from contact.core import arranging, group
 from contact.kernels.block import ahead, cube, matrix, records, vector
 from contact.kernels.records import GIVEN, MOTION, SLOWEST
 from .components import FARTHEST
-from .memory import compiled, integers_of
 
 _INTEGER = np.dtype([("value", "i8")])
 _N_BODY, _N_LINK, _N_ELEMENT = BODY.itemsize // 8, LINK.itemsize // 8, ELEMENT.itemsize // 8
@@ -58,7 +58,7 @@ class Constants(NamedTuple):
     radius: Any
 
 
-@compiled
+@arranging
 def constants_of(own, at, begin):
     """Return the constants, which begin at index `begin` of the numbers, after `at`."""
     links = begin + at.n_bodies * _N_BODY
@@ -73,14 +73,14 @@ def constants_of(own, at, begin):
     )  # fmt: skip
 
 
-@compiled
+@arranging
 def kept_by(at):
     """Return the number of values that carry over from step to step."""
     of_bodies = 1 + (3 * 6 * at.n_bodies) + 3 * at.n_elements
     return of_bodies + 8 * at.n_axles + 2 * at.n_axles + 2 * at.n_axles * _N_SUM + _N_BOOK
 
 
-@compiled
+@arranging
 def arrange(work, end, track, n_track, at, constants):
     """Lay out a vehicle: what carries over at the beginning of `work`, the rest from index `end` on.
 
@@ -118,7 +118,7 @@ def arrange(work, end, track, n_track, at, constants):
     return Parts(begun, model, state, Scratch(frames, forces, given, seats, wheels, power), motions), end
 
 
-@compiled
+@arranging
 def fill(parts, constants, radius, origin_y, origin_z):
     """Fill what depends only on the parameters."""
     own = parts.model.links
@@ -131,7 +131,7 @@ def fill(parts, constants, radius, origin_y, origin_z):
         here.origin_y, here.origin_z, here.slowest = origin_y, origin_z, SLOWEST
 
 
-@compiled
+@arranging
 def track_after(resources, n_files):
     """Return the pointer to the rows of the track, which comes after `n_files` profiles, and its number of places."""
     at = 0
@@ -140,14 +140,14 @@ def track_after(resources, n_files):
     return ahead(resources, at + 1), int(carray(ahead(resources, at), (1,))[0])
 
 
-@compiled
+@arranging
 def has_ended(parts):
     """Return whether the vehicle has reached the end of the track, or has no finite place."""
     s, places = parts.state.books[Book.DISTANCE], parts.model.track[TrackRow.PLACE]
     return not places[0] <= s <= places[-1] - BEYOND
 
 
-@compiled
+@arranging
 def is_near_track(parts):
     """Return whether all bodies are within `FARTHEST` of their places, with finite velocities."""
     q, total = parts.state.q, parts.state.q.sum() + parts.state.u.sum() + parts.state.rails.sum()
@@ -158,7 +158,7 @@ def is_near_track(parts):
     return farthest <= FARTHEST and total - total == 0.0
 
 
-@compiled
+@arranging
 def write_motion(v, distance, body, parts):
     """Write the place, and the coordinates of all bodies from reference `body` on."""
     v[distance] = parts.state.books[Book.DISTANCE]

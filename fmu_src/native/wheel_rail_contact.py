@@ -14,7 +14,7 @@ import numpy as np
 from numba import carray
 
 import contact
-from contact.core import group
+from contact.core import arranging, group
 from contact.damage import DamageParameters
 from contact.kernels import block, memory
 from contact.kernels.arrays import Samples, Workspace
@@ -39,7 +39,6 @@ from ..differences import creepage_steps
 from ..tables.solver import DAMAGE_OUTPUTS, SURFACE
 from ..tables.wheel_rail_contact import FLATTEST, GEOMETRY_KIND, LOAD_KIND, table
 from .component import places
-from .memory import compiled
 from .wires import MATERIAL, case_reader, choose, size_of, writer
 
 _CURVATURES, _NORMAL_FORCE = GEOMETRY_KIND.number("Curvatures"), LOAD_KIND.number("NormalForce")
@@ -71,7 +70,7 @@ _OUTPUTS = {
     "status": "status",
     "gap_error": "gap_error",
 }
-_steps = compiled(creepage_steps)
+_steps = arranging(creepage_steps)
 
 
 class _OfStrip(IntEnum):
@@ -97,7 +96,7 @@ _FIELDS = {
 }
 
 
-@compiled
+@arranging
 def _element(strips, fields, row, i, j):
     """Return the value of one element. `row` is a value of `_FIELDS`."""
     if row == _OfStrip.PATCH:
@@ -131,7 +130,7 @@ class Arrays(NamedTuple):
     derived: Any  # what the host sees of it: `components.CONTACT_DERIVATIVES`
 
 
-@compiled
+@arranging
 def _lay(work, size, kept, data):
     """Lay out all arrays in `work`. Return them, the indices of `shown` and `derived`, and the total size in numbers."""
     own, _, end = lay_out(work, kept.size, kept, size, data)
@@ -156,7 +155,7 @@ def _lay(work, size, kept, data):
     return a, (at_shown, end), total
 
 
-@compiled
+@arranging
 def _first(samples, n):
     """Return the first n samples."""
     return Samples(samples.y[:n], samples.g[:n], samples.A[:n], samples.x_c[:n], samples.tilt[:n])
@@ -166,14 +165,14 @@ _read_case = case_reader(_TABLE, _CASE_INPUTS)
 _write, _write_damage = writer(_TABLE, RESULT, _OUTPUTS), writer(_TABLE, DAMAGE, DAMAGE_OUTPUTS)
 
 
-@compiled
+@arranging
 def _values(values, given):
     """Return the values as an array, and the record `places` as an array of one record."""
     rows, _ = block.records(given.own, 0, 1, _AT)
     return carray(values, (rows[0].n_values,)), rows
 
 
-@compiled
+@arranging
 def _pose(v, rows, a):
     """Fill samples and case from the values. Return the number of samples."""
     at, sep, case = rows[0], a.samples, a.case[0]
@@ -201,7 +200,7 @@ def _pose(v, rows, a):
     return n
 
 
-@compiled
+@arranging
 def _report(v, rows, a):
     """Copy the results to the outputs."""
     at, result = rows[0], a.result[0]
@@ -211,7 +210,7 @@ def _report(v, rows, a):
     v[at.slip_ratio] = result.slip_area / result.area if result.area > 0.0 else 0.0
 
 
-@compiled
+@arranging
 def _difference(v, at, reference):
     """Return a step so small that elements hardly ever change from stick to slip within it, where forces have kinks.
 
@@ -241,14 +240,14 @@ def _difference(v, at, reference):
     return max(1e-6 * abs(v[reference]), 1e-12)
 
 
-@compiled
+@arranging
 def _solve(n, a):
     """Solve the case of `a` with its first `n` samples."""
     forget_forged(a.own.space.memory)
     a.count[0] = solve_case(_first(a.samples, n), a.case, a.own, a.result)
 
 
-@compiled
+@arranging
 def _for_forces(a):
     """Return the workspace without room for fields, which would take most of the time, unless the forces need them."""
     own, case = a.own, a.case[0]
@@ -261,12 +260,12 @@ def entries() -> dict[str, Callable[..., Any]]:
     """Return the functions of this kind (`kinds`), for separations of any number of samples."""
     fields = np.array([_FIELDS[field.twin_of or field.name] for field in _TABLE.fields])
 
-    @compiled
+    @arranging
     def size(v, at):
         n_strips, n_elements = int(v[at.resolution_n_strips]), int(v[at.resolution_n_elements])
         return size_of(int(v[at.method_normal]), n_strips, n_elements, max(at.points, HERTZIAN_POINTS))
 
-    @compiled
+    @arranging
     def arrange(v, at, work, given):
         kept, _ = block.vector(work, 0, memory.memory_size(size(v, at)))
         return _lay(work, size(v, at), kept, given.data)

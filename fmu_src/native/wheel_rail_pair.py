@@ -12,7 +12,7 @@ from typing import Any, NamedTuple
 
 from numba import carray
 
-from contact.core import group
+from contact.core import arranging, group
 from contact.kernels import block, memory, quadrature
 from contact.kernels.block import ahead
 from contact.kernels.damage.deposit import arc_length
@@ -23,7 +23,6 @@ from ..tables.wheel_rail_pair import ACCUMULATED, BINS, table
 from ..variables import Table
 from . import pair_parts
 from .components import PAIR_DERIVED, Failure
-from .memory import compiled
 from .pair_parts import sizer
 from .wires import references
 
@@ -45,7 +44,7 @@ class Start(NamedTuple):
     turned: Any
 
 
-@compiled
+@arranging
 def _lay_start(work, piece, n_bins, resources):
     """Lay out `Start` in `work`. Return it and the index where it ends."""
     kept, end = block.vector(work, 0, memory.pair_memory_size(piece))
@@ -58,7 +57,7 @@ def _lay_start(work, piece, n_bins, resources):
     return Start(kept, bins, counts, wheel, turned), end
 
 
-@compiled
+@arranging
 def _lay(work, end, start, counts, size, constants):
     """Lay out the bench from index `end` on, for curves of `counts` nodes.
 
@@ -75,7 +74,7 @@ def _lay(work, end, start, counts, size, constants):
     return bench, aside, (derived, end), total
 
 
-@compiled
+@arranging
 def _place(wheel, turned, counts, search):
     """Copy the parts of the profiles that can touch to the search, and fill its quadrature rule."""
     wheel_from, wheel_to = facing(wheel, True)
@@ -90,7 +89,7 @@ def _parameter_setter(table: Table) -> Callable[..., Any]:
     """Return a compiled function that copies the parameters to the bench."""
     at, set_shared = references(table), pair_parts.parameter_setter(table)
 
-    @compiled
+    @arranging
     def set_parameters(v, origin_y, origin_z, bench):
         set_shared(v, origin_y, origin_z, bench)
         bench.search.motion[0].combine_angle = v[at.patches_combine_angle]
@@ -117,16 +116,16 @@ def layout_of(table: Table) -> Layout:
     """Return the functions of the layout for the rows of `table`."""
     at, size = references(table), sizer(table)
 
-    @compiled
+    @arranging
     def n_bins(v):
         """Return the number of bins on each profile, 0 if nothing accumulates."""
         return BINS if v[at.accumulation_wear_law] > 1.0 else 0
 
-    @compiled
+    @arranging
     def begin(v, work, resources):
         return _lay_start(work, memory.memory_size(size(v)), n_bins(v), resources)
 
-    @compiled
+    @arranging
     def arrange(v, work, given):
         """Return the bench that `model_prepare` has filled, and what belongs to its derivatives."""
         start, end = begin(v, work, given.resources)

@@ -10,6 +10,7 @@ from typing import Any
 
 from numba import carray
 
+from contact.core import arranging
 from contact.kernels import block, memory
 from contact.kernels.block import ahead
 from contact.kernels.entries.layout import fill
@@ -18,7 +19,6 @@ from ..tables.wheel_rail_surfaces import FRAME, table
 from ..variables import Table
 from . import pair_parts
 from .components import Failure
-from .memory import compiled
 from .pair_parts import sizer
 from .wheel_rail_pair import DERIVED
 from .wires import references
@@ -27,7 +27,7 @@ _TILTED = FRAME.number("Tilted")
 _STEP_ALONG, _STEP_ANGLE = 1e-6, 2e-6  # [m], [rad] for difference quotients
 
 
-@compiled
+@arranging
 def _found(resources):
     """Return the numbers of the wheel's surface and how many they are, and those of the rail's."""
     n_wheel = int(carray(resources, (1,))[0])
@@ -35,7 +35,7 @@ def _found(resources):
     return ahead(resources, 1), n_wheel, ahead(rest, 1), int(carray(rest, (1,))[0])
 
 
-@compiled
+@arranging
 def _lay(work, given, size):
     """Lay out the bench. Return it, and what else `wheel_rail_pair` lays after it."""
     wheel, n_wheel, rail, n_rail = _found(given.resources)
@@ -52,7 +52,7 @@ def _parameter_setter(table: Table) -> Callable[..., Any]:
     """Return a compiled function that copies the parameters to the bench."""
     at, set_shared = references(table), pair_parts.parameter_setter(table)
 
-    @compiled
+    @arranging
     def set_parameters(v, origin_y, origin_z, bench):
         set_shared(v, origin_y, origin_z, bench)
         motion = bench.search.motion[0]
@@ -66,7 +66,7 @@ def _differ(table: Table) -> Callable[..., Any]:
     """Return a compiled function that returns the step of a variable for difference quotients."""
     at, as_pair = references(table), pair_parts.differ(table)
 
-    @compiled
+    @arranging
     def difference(v, reference):
         if reference == at.pose_station:
             return _STEP_ALONG

@@ -14,6 +14,7 @@ from contact_models.wheelset.parameters import WheelsetParameters
 from contact_models.wheelset.ports import CREEPAGE, LOAD, POINTS
 from numba import carray
 
+from contact.core import arranging
 from contact.geometry import profile
 from contact.geometry.wheelset import TAPE_FROM_FLANGE_BACK
 from contact.kernels.block import matrix, records, vector
@@ -23,7 +24,6 @@ from contact.kernels.records import GIVEN, MAX_PATCHES, SLOWEST
 from contact.kernels.rows import N_PROFILE_ROWS
 from ..tables.wheelset import table
 from .components import OUT_OF_GAUGE
-from .memory import compiled
 from .wires import references
 
 _WHEEL, _RAIL = WheelsetParameters().wheel, profile.rail_60e1(inclination=0.0)
@@ -41,7 +41,7 @@ _N_VALUES = len(_TABLE.scalars)
 _STEPS = np.array([_DIFFERENCES.get(s.unit, 1e-6 * abs(s.first)) for s in _TABLE.scalars])
 
 
-@compiled
+@arranging
 def _arrange(work, n_wheel, n_rail):
     """Lay out all arrays in `work` for curves of `n_wheel` and `n_rail` nodes. Return them and the total size in numbers.
 
@@ -74,7 +74,7 @@ def _arrange(work, n_wheel, n_rail):
     return wheelset, begun, turned, sizes, end
 
 
-@compiled
+@arranging
 def _prepared(work):
     """Return the wheelset as laid out by `model_prepare`, and the flag at the beginning of the warm start."""
     sizes, _ = vector(work, _REMEMBERED, 2)
@@ -82,7 +82,7 @@ def _prepared(work):
     return wheelset, begun
 
 
-@compiled
+@arranging
 def _begin(v, w):
     """Place the wheelset on its rails; return a code of `motion`."""
     return motion.begin(
@@ -91,7 +91,7 @@ def _begin(v, w):
     )  # fmt: skip
 
 
-@compiled
+@arranging
 def _take_inputs(v, w):
     for i in range(3):
         w.forces[0, i], w.forces[1, i] = v[_AT.right_force_x + i], v[_AT.left_force_x + i]
@@ -99,7 +99,7 @@ def _take_inputs(v, w):
     w.irregularity[0], w.irregularity[1] = v[_AT.irregularity_lateral], v[_AT.irregularity_slope]
 
 
-@compiled
+@arranging
 def _take_states(v, w):
     for i in range(dynamics.N_STATE):
         w.state[i] = v[_AT.lateral + i]
@@ -107,7 +107,7 @@ def _take_states(v, w):
         w.energy[i] = v[_AT.energy_interface + i]
 
 
-@compiled
+@arranging
 def _report_side(v, w, side, first):
     """Write the outputs of one side. `first` are the references of its gap, curvatures, creepages, load and frame."""
     problem, (gap, curvature, creepage, load, frame) = w.problems[side], first
@@ -120,7 +120,7 @@ def _report_side(v, w, side, first):
         v[frame + i] = w.frames[side, i]
 
 
-@compiled
+@arranging
 def _report(v, w):
     for i in range(dynamics.N_STATE):
         v[_AT.lateral + i] = w.state[i]
@@ -140,7 +140,7 @@ def _report(v, w):
     )  # fmt: skip
 
 
-@compiled
+@arranging
 def _prepare_search(v, found, mirror, origin_y, origin_z):
     """Fill what the search for contacts needs to know of one side: +1 right, −1 left."""
     pose = found.motion[0]
@@ -154,7 +154,7 @@ def _prepare_search(v, found, mirror, origin_y, origin_z):
         found.grid[i] = mirror * (v[_AT.geometry_y0] + v[_AT.geometry_dy] * k)
 
 
-@compiled
+@arranging
 def _fill_constants(v, c):
     """Fill the constants of the motion from the parameters."""
     c[dynamics.Constant.MASS] = v[_AT.mass]

@@ -10,12 +10,13 @@ import numpy as np
 from numba import carray
 
 import contact
+from contact.compile.pointers import integers_of, numbers_of
+from contact.core import arranging
 from contact.inputs import material
 from contact.kernels.arrays import Size
 from contact.kernels.records import CASE
 from ..variables import Table, identifier
 from .component import numbers, places
-from .memory import compiled, integers_of, numbers_of
 
 #: Inputs and parameters of a contact → members of the record CASE.
 SURFACE = {
@@ -45,16 +46,16 @@ _METHODS = contact.methods().batched
 #: Indexed by the value of `method.normal` or `method.tangential`, less 1.
 _NORMAL = np.array([(int(m.id), int(m.family), int(m.interacting)) for m in _METHODS.normal.values()])
 _TANGENTIAL = np.array([(int(m.id), int(m.family)) for m in _METHODS.tangential.values()])
-_heating = compiled(material.heating)
+_heating = arranging(material.heating)
 
 
-@compiled
+@arranging
 def size_of(normal, n_strips, n_elements, samples):
     """Return the sizes of a workspace. `normal` is the value of `method.normal`."""
     return Size(n_strips, n_elements, samples, _NORMAL[normal - 1, 2], 1)
 
 
-@compiled
+@arranging
 def choose(normal, tangential, case):
     """Write the methods into a case. The arguments are the values of `method.normal` and `method.tangential`."""
     case.normal, case.normal_family = _NORMAL[normal - 1, 0], _NORMAL[normal - 1, 1]
@@ -95,7 +96,7 @@ def reader(table: Table, dtype: np.dtype, wires: Mapping[str, str]) -> Any:
     references, positions, whole, first = _wired(table, dtype, wires)
     size, n_places = dtype.itemsize // 8, len(places(table))
 
-    @compiled
+    @arranging
     def read(v, at, records):
         numbers, integers = carray(numbers_of(records), (size,)), carray(integers_of(records), (size,))
         starts = carray(integers_of(at), (n_places,))
@@ -117,7 +118,7 @@ def writer(table: Table, dtype: np.dtype, wires: Mapping[str, str]) -> Any:
     references, positions, whole, _ = _wired(table, dtype, wires)
     size, n_places = dtype.itemsize // 8, len(places(table))
 
-    @compiled
+    @arranging
     def write(v, at, records):
         numbers, integers = carray(numbers_of(records), (size,)), carray(integers_of(records), (size,))
         starts = carray(integers_of(at), (n_places,))
@@ -131,7 +132,7 @@ def case_reader(table: Table, wires: Mapping[str, str]) -> Any:
     """Return a compiled function that fills a case from values: the members in `wires`, and friction with its heat."""
     read = reader(table, CASE, {**SURFACE, **wires})
 
-    @compiled
+    @arranging
     def read_case(v, places, cases):
         read(v, places, cases)
         case, at = cases[0], places[0]

@@ -43,8 +43,8 @@ def build(wanted: list[str], made: Path) -> None:
     try:
         import ziglang  # noqa: F401
 
+        from contact.compile.linking import OF_WINDOWS, WITHOUT_MINGW, compiler, run
         from ..native.headers import HEADERS
-        from ..native.linking import OF_WINDOWS, WITHOUT_MINGW, compiler, run
     except ModuleNotFoundError as error:
         raise ImportError(
             f"{error}: to build FMUs for hosts with Python without a wheel  pip install 'wheelrail-contact[native]'"

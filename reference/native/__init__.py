@@ -12,6 +12,7 @@ from urllib.parse import unquote, urlsplit
 import fmpy
 import numpy as np
 
+from contact.compile.linking import OF_WINDOWS, WITHOUT_MINGW, compiler, run
 from contact.core import library
 from contact.kernels.records import MAX_PATCHES
 from contact.solver import N_ELEMENTS, N_STRIPS
@@ -19,7 +20,6 @@ from fmu_src.catalogue import models, vehicles
 from fmu_src.native import systems
 from fmu_src.native.component import Component
 from fmu_src.native.headers import HEADERS
-from fmu_src.native.linking import OF_WINDOWS, WITHOUT_MINGW, compiler, run
 from models.wheelset.ports import POINTS
 from reference.native import source
 
@@ -220,7 +220,7 @@ def roles(its: Component) -> str:
 
 def kernel_objects() -> list[Path]:
     """Return the paths of the compiled kernels for Linux, which the build of the FMU keeps."""
-    from fmu_src.native.objects import objects
+    from contact.compile.objects import objects
 
     return objects(systems.kernels(), "linux64")
 

@@ -5,8 +5,8 @@ from pathlib import Path
 
 import numpy as np
 
+from contact.compile.c_header import header  # noqa: F401 - the tests of the header use it
 from contact.kernels.records import CASE, CONTACT, DAMAGE_PARAMETERS, ELASTIC_RAIL, GIVEN, TOTAL, WHEEL_OFFSET
-from fmu_src.native.c_header import header  # noqa: F401 - the tests of the header use it
 
 ROOT = Path(__file__).parents[2]
 

@@ -8,11 +8,12 @@ import subprocess
 import numpy as np
 import pytest
 
+from contact.compile.library import C_INTERFACE
+from contact.compile.objects import objects
 from contact.geometry import profile
 from contact.geometry.wheelset import Pair, Pose, Velocity
 from contact.pair import WheelRailPair
 from fmu_src.native import systems
-from fmu_src.native.objects import objects
 from tests.capi.library import ROOT
 
 EXAMPLES, INCLUDE = ROOT / "examples", f"-I{ROOT / 'contact/include'}"
@@ -104,8 +105,8 @@ def test_octave_gets_the_forces_of_c(in_c, built, tmp_path):
 def test_an_attacking_host_is_refused_everywhere(built, tmp_path):
     flags = ("-std=gnu11", "-g", "-O1", "-fsanitize=address,undefined", "-fno-sanitize-recover=undefined")
     kernels = systems.kernels()
-    sources = (ROOT / "tests/capi/attack.c", *systems.C_SOURCES, *objects(kernels, "linux64"))
-    defined = ("-DWR_SEVERAL", *systems.flags(kernels))
+    sources = (ROOT / "tests/capi/attack.c", C_INTERFACE, systems.PROCESSOR, *objects(kernels, "linux64"))
+    defined = ("-DWR_SEVERAL", *flags(kernels))
     run("gcc", *flags, *defined, *sources, "-lm", "-o", "attack", cwd=tmp_path, library=built)
     assert "0 failures" in run("./attack", cwd=tmp_path, library=built)
 

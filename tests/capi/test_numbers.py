@@ -9,6 +9,7 @@ import pytest
 
 import contact
 from contact import stress
+from contact.compile.c_header import PATH, header
 from contact.geometry import profile
 from contact.geometry.surfaces import Flat, RailSurface, SurfacePair, WheelSurface, compiled
 from contact.geometry.surfaces.pair import SAMPLES
@@ -17,7 +18,6 @@ from contact.geometry.wheelset import Pose, Velocity
 from contact.kernels.enumerations import Height, Status
 from contact.kernels.records import DAMAGE, RESULT
 from contact.pair import WheelRailPair
-from fmu_src.native.c_header import PATH, header
 from tests.capi.library import FIELDS, LOAD, OPTIONS, Library, Pair, Patch
 
 

@@ -7,8 +7,8 @@ from itertools import product
 import pytest
 from llvmlite import binding as llvm
 
-from fmu_src.native.ir_to_c import as_c
-from fmu_src.native.linking import compiler, run
+from contact.compile.ir_to_c import as_c
+from contact.compile.linking import compiler, run
 
 NUMBERS = (0.0, -0.0, 1.5, -2.25, 1e300, float("inf"), float("-inf"), float("nan"))
 INTEGERS = (0, 1, -1, 7, -8, 2**62, -(2**63), 2**63 - 1)

@@ -4,8 +4,8 @@ import pytest
 
 pytest.importorskip("ziglang")
 
+from contact.compile.linking import compiler, run
 from contact.core.library import get_include
-from fmu_src.native.linking import compiler, run
 
 HEADER = get_include() / "wheelrail_records.h"
 STRICT = ("-std=c11", "-Wall", "-Wextra", "-Werror", "-c")

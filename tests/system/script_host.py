@@ -7,8 +7,8 @@ from pathlib import Path
 import fmpy
 import numpy as np
 
+from contact.compile.linking import compiler
 from fmu_src.native.headers import HEADERS
-from fmu_src.native.linking import compiler
 from reference.native import HOST, compile_program, resources_of
 
 SOURCE = HOST / "script.c"

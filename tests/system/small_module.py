@@ -4,20 +4,16 @@ import math
 import sys
 from pathlib import Path
 
-from fmu_src.native import emit
-
-if __name__ == "__main__":
-    emit.ensure_environment("tests.system.small_module")
-
 import numpy as np
 from numba import cfunc, types
 
+from contact.compile import emit, objects
+from contact.compile.pointers import Doubles
+from contact.core import arranging
 from contact.kernels.block import vector
-from fmu_src.native import objects
-from fmu_src.native.memory import Doubles, compiled
 
 
-@compiled
+@arranging
 def energy(numbers):
     """Return a sum that needs a loop and libm."""
     total = 0.0

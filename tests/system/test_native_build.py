@@ -5,6 +5,7 @@ import subprocess
 import sys
 from pathlib import Path
 
+from contact.core.library import ENVIRONMENT
 from fmu_src.catalogue import models
 from fmu_src.native import packaging
 
@@ -25,7 +26,7 @@ def test_the_same_sources_give_the_same_kernels(tmp_path):
     for seed, before in (("1", "0"), ("2", "1")):
         (tmp_path / seed).mkdir()
         command = [sys.executable, Path(__file__).with_name("small_module.py"), tmp_path / seed, before]
-        subprocess.run(command, check=True, env=os.environ | {"PYTHONHASHSEED": seed}, timeout=300)
+        subprocess.run(command, check=True, env=os.environ | ENVIRONMENT | {"PYTHONHASHSEED": seed}, timeout=300)
         found.append({path.name: path.read_bytes() for path in sorted((tmp_path / seed).iterdir())})
     assert found[0] == found[1]
     assert len(found[0]) == 3 * 3 + 2  # data and two processors for each system, and C

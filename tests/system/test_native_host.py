@@ -9,11 +9,11 @@ from copy import copy
 import pytest
 from contact_case import NAME
 
+from contact.compile.linking import FLAGS, compiler, run
 from fmu_src.catalogue import models
 from fmu_src.native import systems, table
 from fmu_src.native.headers import HEADERS
 from fmu_src.native.kinds import KINDS
-from fmu_src.native.linking import FLAGS, compiler, run
 from models.wheelset.ports import POINTS
 from reference.native import ATTACKED, ROLES, SANITIZED, kernel_library, kernel_objects, sanitized
 

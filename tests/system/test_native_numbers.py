@@ -9,7 +9,7 @@ from random_cases import METHODS, OUTPUTS, POINTS, STEP, Case, random_case
 
 import contact
 from contact import Status
-from fmu_src.native.objects import CPUS
+from contact.compile.objects import CPUS
 from fmu_src.tables.wheel_rail_contact import table
 from reference.native import kernel_library
 

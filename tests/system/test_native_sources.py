@@ -11,9 +11,9 @@ import numpy as np
 import pytest
 from script_host import Script
 
+from contact.compile.linking import compiler, run
 from fmu_src.native import systems
 from fmu_src.native.headers import HEADERS
-from fmu_src.native.linking import compiler, run
 from reference.native import HOST, compile_once
 
 STRICT = ("-std=c11", "-Wall", "-Wextra", "-Werror")

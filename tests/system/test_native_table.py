@@ -101,7 +101,7 @@ from fmu_src.catalogue import models
 from fmu_src.native import packaging
 for model in models(30):
     packaging.build(model, Path({str(tmp_path)!r}))
-loaded = {{"numba", "llvmlite", "ziglang", "fmpy", "fmu_src.native.emit", "fmu_src.native.linking"}} & set(sys.modules)
+loaded = {{"numba", "llvmlite", "ziglang", "fmpy", "contact.compile.emit", "contact.compile.linking"}} & set(sys.modules)
 sys.exit(", ".join(loaded) or 0)
 """
     done = subprocess.run([sys.executable, "-c", code], cwd=ROOT, capture_output=True, text=True)

@@ -14,9 +14,9 @@ from fmu_instance import ERROR, OK, Instance, refused
 from script_host import Script
 from spellings import OF_WINDOWS, SPELLINGS
 
+from contact.compile.linking import OF_WINDOWS as C_OF_WINDOWS
+from contact.compile.linking import WITHOUT_MINGW, compiler, run
 from fmu_src.native.headers import HEADERS
-from fmu_src.native.linking import OF_WINDOWS as C_OF_WINDOWS
-from fmu_src.native.linking import WITHOUT_MINGW, compiler, run
 from fmu_src.python import entry
 
 FOLDERS = [

@@ -1,10 +1,10 @@
-"""Build the library of all kernels: ``python -m fmu_src.native.library FOLDER [SYSTEM …]``.
+"""Build the library of all kernels: ``python -m contact.compile.library FOLDER [--systems]``.
 
-Without systems it writes kernels.o for this machine, with the entries of Python and of the C interface, and where there is a
-linker the library beside it. With names of systems (`linking`) it writes kernels.bc, which has those of native FMUs and of the
-explorer too, and what `objects` makes of it. `systems` then links that.
+It writes kernels.o for this machine, with the entries of Python and of the C interface, and where there is a linker the library
+beside it. With ``--systems`` it writes kernels.bc, which has the functions that other packages add too (`Added`), and what
+`objects` makes of it for all systems. `linking` then links that.
 
-It imports all modules that have entries (`contact.core.entry`), with the settings of numba that `emit.ENVIRONMENT` lists.
+It imports all modules that have entries (`contact.core.entry`). `contact.core.library` starts it, with settings of numba.
 """
 
 from __future__ import annotations
@@ -12,15 +12,46 @@ from __future__ import annotations
 import shutil
 import subprocess
 import sys
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from importlib import import_module
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from . import emit, kinds
-from .systems import C_SOURCES, PREFIX, flags
+from contact.compile import emit
+from contact.core.library import NAME, get_include, registered
+from contact.version import __version__
 
-_ROOT = Path(__file__).parents[2]
+#: Beginning of the names of the functions that the C interface calls.
+PREFIX = "wrk"
+#: The C source of the C interface.
+C_INTERFACE = get_include().parent / "c" / "wheelrail.c"
+
+
+class Added(NamedTuple):
+    """A function for C that another package adds to the libraries of all systems.
+
+    A module that pyproject.toml lists under ``added`` has a function `added()`, which returns them.
+
+    Parameters
+    ----------
+    name : str
+        Name in the library.
+    function : function of Python
+        What numba compiles.
+    result, arguments : str, tuple of str
+        Types (`pointers.TYPES`) of the result, and of the arguments without the last one.
+    last : function (type of the constant arrays) -> named tuple of numba types
+        Type of the last argument: pointers.
+    file : str
+        Name of the file of C that has the function; empty where nobody needs it in C or in the libraries, but in kernels.bc.
+    """
+
+    name: str
+    function: Callable[..., Any]
+    result: str
+    arguments: tuple[str, ...]
+    last: Callable[[Any], Any]
+    file: str = ""
 
 
 def entries() -> Iterator[Any]:
@@ -28,19 +59,18 @@ def entries() -> Iterator[Any]:
     from contact.core import library
     from contact.core.calls import Entry
 
-    for path in library.sources():
+    for path, name in library.modules():
         if b"\n@entry\n" not in path.read_bytes():
             continue
-        module = import_module(".".join(path.relative_to(_ROOT).with_suffix("").parts))
+        module = import_module(name)
         yield from (
             one for one in vars(module).values() if isinstance(one, Entry) and one.__module__ == module.__name__
         )
 
 
-def modules_of_kinds() -> dict[str, str]:
-    """Return the modules of all kinds of models, and of the explorer's page in a checkout."""
-    page = {"page": "explorer.patch"} if (_ROOT / "explorer").is_dir() else {}
-    return {**kinds.KINDS, **page}
+def flags(folder: Path) -> list[str]:
+    """Return the flags of a C compiler for the C interface. `folder` has the declarations of its entries."""
+    return [f"-I{folder}", f"-I{get_include()}", f'-DWR_VERSION="{__version__}"']
 
 
 class Constants(NamedTuple):
@@ -50,25 +80,26 @@ class Constants(NamedTuple):
 
 
 class Kernels:
-    """What numba makes of all entries. With `every` those of FMUs and of the explorer are among them."""
+    """What numba makes of all entries. With `every` what other packages add is among them."""
 
     def __init__(self, every: bool) -> None:
+        from contact.compile import c_tables
         from contact.kernels.entries import all_entries
-        from . import c_tables
 
         self.of_python = list(entries())
         self.of_c = all_entries()
         # Before machine code is switched off, since these call kernels to make their constants.
-        self.of_kinds = {kind: kinds.entries(name) for kind, name in modules_of_kinds().items()} if every else {}
+        self.added: list[Added] = []
+        for name in registered()["added"] if every else ():
+            self.added += import_module(name).added()
         self.data = c_tables.data()
 
     def module(self) -> tuple[Any, list[str]]:
         """Return one LLVM module, and the names of its C functions. No kernel can be called in this process afterwards."""
         from numba import cfunc, types
 
+        from contact.compile.pointers import TYPES, Doubles
         from contact.core.compiled import as_c_function
-        from .component import Given
-        from .memory import TYPES, Doubles
 
         emit.make_no_machine_code()
         made = emit.Emission(self.data)
@@ -83,10 +114,8 @@ class Kernels:
             made.add_entry(one.symbol, as_c_function(one))
         for name, (function, result, arguments) in self.of_c.items():
             add(f"{PREFIX}_{name}", function, result, arguments, types.NamedTuple((tables,), Constants))
-        for kind, functions in self.of_kinds.items():
-            for name, (result, arguments) in kinds.SIGNATURES.items():
-                given = types.NamedTuple((Doubles, Doubles, tables), Given)
-                add(f"{kind}_{name}", functions[name], result, arguments, given)
+        for one in self.added:
+            add(one.name, one.function, one.result, one.arguments, one.last(tables))
         module = made.module()
         hidden = set(made.names) - {one.symbol for one in self.of_python}
         for function in module.functions:
@@ -130,21 +159,19 @@ def write_object(module: Any, path: Path) -> None:
 
 def link_for_this_machine(folder: Path) -> None:
     """Link the library, with its C interface, by the system's compiler if there is one. Else Python alone can use kernels.o."""
-    from contact.core.library import NAME
-
     compiler = next(filter(None, map(shutil.which, ("cc", "gcc", "clang"))), None)
     if compiler is None:
         return
     write_declarations(folder, ("",))
     options = ("-std=c11", "-shared", "-fPIC", "-O2", "-ffp-contract=off", "-fvisibility=hidden", *flags(folder))
-    command = [compiler, *options, "-o", str(folder / NAME), str(C_SOURCES[0]), str(folder / "kernels.o"), "-lm"]
+    command = [compiler, *options, "-o", str(folder / NAME), str(C_INTERFACE), str(folder / "kernels.o"), "-lm"]
     done = subprocess.run(command, check=False, capture_output=True, text=True)
     sys.stdout.write(done.stderr)  # a compiler without headers or a linker is like none
 
 
 def main() -> None:
     """Build into the folder that the command line names."""
-    emit.ensure_environment(f"{__package__}.library")
+    emit.show_no_warnings()
     folder, for_systems = Path(sys.argv[1]), "--systems" in sys.argv
     kernels = Kernels(every=for_systems)
     module, names = kernels.module()
@@ -157,13 +184,16 @@ def main() -> None:
         write_object(module, folder / "kernels.o")
         link_for_this_machine(folder)
         return
-    from . import objects
+    from contact.compile import objects
 
     write_declarations(folder, tuple(f"_{suffix}" for suffix in (*objects.CPUS, objects.IN_C)))
     code = module.as_bitcode()
     (folder / "kernels.bc").write_bytes(code)  # for the explorer
-    in_c = {f"{kind}.c": kinds.names(kind) for kind in kinds.KINDS}
-    names = [name for name in names if name not in kinds.names("page")]
+    in_c: dict[str, list[str]] = {}
+    for one in kernels.added:
+        in_c.setdefault(one.file, []).append(one.name)
+    apart = in_c.pop("", [])
+    names = [name for name in names if name not in apart]
     objects.write(code, names, exported, data, {"kernels.c": names, **in_c}, folder)
 
 

@@ -9,7 +9,7 @@ from __future__ import annotations
 import re
 from collections.abc import Sequence
 
-from .ir_text import (
+from contact.compile.ir_text import (
     GLOBAL,
     LOCAL,
     TYPES,

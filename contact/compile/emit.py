@@ -1,7 +1,7 @@
 """Make LLVM's IR of kernels by numba, without anything of Python in it.
 
-Before numba is imported, it must be told not to optimise and not to target this machine (`ENVIRONMENT`). Loops that numba has
-unrolled vectorise badly later, and code for this CPU would not run on others.
+Before numba is imported, it must be told not to optimise and not to target this machine (`contact.core.library.ENVIRONMENT`).
+Loops that numba has unrolled vectorise badly later, and code for this CPU would not run on others.
 
 The numba conventions used here are not documented: the prefix `cfunc.`, the arguments of a function's body, the names of its
 runtime, and how it makes machine code. Therefore pyproject.toml pins the numba version of the build, and tests compare results.
@@ -10,23 +10,9 @@ runtime, and how it makes machine code. Therefore pyproject.toml pins the numba 
 from __future__ import annotations
 
 import gc
-import os
 import re
-import sys
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from typing import Any
-
-#: Environment variables that must be set before numba is imported.
-ENVIRONMENT = {
-    "CONTACT_JIT": "build",
-    "NUMBA_CPU_NAME": "generic",
-    "NUMBA_CPU_FEATURES": "",
-    "NUMBA_OPT": "0",
-    "NUMBA_LOOP_VECTORIZE": "0",
-    "NUMBA_SLP_VECTORIZE": "0",
-    "NUMBA_DISABLE_INTEL_SVML": "1",
-    "NUMBA_DISABLE_ERROR_MESSAGE_HIGHLIGHTING": "1",  # of overloads that do not fit, which nobody reads
-}
 
 #: External symbols that the objects may need: libm and memory functions. Symbols of Python or numba are not allowed. This
 #: proves that nothing allocates, counts references or raises an exception (its pickled message would remain).
@@ -58,10 +44,8 @@ DATA = "wr_data"
 _TYPES = {"i64": "i64", "f64": "double", "ptr": "ptr"}
 
 
-def ensure_environment(module: str) -> None:
-    """Begin the program ``python -m module`` anew with `ENVIRONMENT`, unless it has that. No warning of numba is shown."""
-    if any(os.environ.get(name) != value for name, value in ENVIRONMENT.items()):
-        os.execve(sys.executable, [sys.executable, "-m", module, *sys.argv[1:]], os.environ | ENVIRONMENT)
+def show_no_warnings() -> None:
+    """Show no warning of numba."""
     import warnings
 
     from numba.core.errors import NumbaWarning

@@ -4,14 +4,15 @@ from __future__ import annotations
 
 import subprocess
 import sys
+from collections.abc import Sequence
 from pathlib import Path
 
-from .libm import compile_libm
-from .objects import OWN_LIBM, objects
-from .systems import ARM, C_SOURCES, WRAPPER, flags
+from contact.compile.libm import compile_libm
+from contact.compile.library import C_INTERFACE, flags
+from contact.compile.objects import OWN_LIBM, TRIPLES, objects
 
 #: What every library for Windows has. It needs the Universal C Runtime, which is part of Windows since version 10.
-OF_WINDOWS = Path(__file__).parent / "c_windows" / "library.c"
+OF_WINDOWS = Path(__file__).parent / "windows.c"
 _RUNTIME = ("convert", "heap", "math", "private", "runtime", "stdio", "string")
 #: Linker options: the libraries of Windows and not zig's start-up code for it, which takes a minute to build; no time stamp.
 WITHOUT_MINGW = ("-nostdlib", "-Wl,-Brepro", "-lkernel32", *(f"-lapi-ms-win-crt-{part}-l1-1-0" for part in _RUNTIME))
@@ -28,14 +29,14 @@ _TARGETS = {
 }
 
 
-def link(system: str, name: str, kernels: Path, folder: Path) -> Path:
-    """Link the library of a system and return its path, `folder`/`system`/`name`.
+def link(system: str, library: Path, kernels: Path, sources: Sequence[Path], headers: Sequence[Path]) -> None:
+    """Link the library of a system from the C interface, other `sources` in C, and the compiled kernels in a folder.
 
-    `kernels` is the folder of the compiled kernels, and `folder`/sources has headers that the C sources need.
+    `headers` are the folders of the headers that the sources need. Systems without objects have the kernels in C.
     """
-    library, in_c = folder / system / name, system in ARM
+    in_c = system not in TRIPLES
     library.parent.mkdir(exist_ok=True)
-    include = [f"-I{path}" for path in (WRAPPER[0].parent, folder / "sources")]
+    include = [f"-I{path}" for path in headers]
     defined = ["-DWR_ANY", "-DKERNELS_IN_C"] if in_c else ["-DWR_SEVERAL"]
     of_system = [OF_WINDOWS] if system == "win64" else []
     made = compile_libm(compiler(system), library.parent, run) if system in OWN_LIBM else []
@@ -45,17 +46,16 @@ def link(system: str, name: str, kernels: Path, folder: Path) -> Path:
         unused = "-Wno-unused-parameter"
         run(*compiler(system), *options, *defined, *flags(kernels), unused, *include, "-c", path, "-o", made[-1])
 
-    for path in (*C_SOURCES, *(path for path in WRAPPER if path.suffix == ".c"), *of_system):
+    for path in (C_INTERFACE, *sources, *of_system):
         compile_c(path, FLAGS)
     for path in (kernels / "kernels.c", kernels / "data.c") if in_c else ():
         compile_c(path, _VISIBLE)
     # names without a folder, because a macOS library has a trace of them
     names, ready = [path.name for path in made], [] if in_c else objects(kernels, system)
-    options = _of_system(_TARGETS[system], name)
+    options = _of_system(_TARGETS[system], library.name)
     run(*compiler(system), "-shared", "-s", *names, *ready, "-o", library, *options, cwd=library.parent)
     for path in (*made, *library.parent.glob("*.lib")):
         path.unlink()
-    return library
 
 
 def _of_system(target: str, name: str) -> list[str]:

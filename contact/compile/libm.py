@@ -13,7 +13,7 @@ from pathlib import Path
 
 import ziglang
 
-from .objects import CPUS
+from contact.compile.objects import CPUS
 
 ZIG = Path(ziglang.__file__).parent
 _MUSL = ZIG / "lib" / "libc" / "musl"

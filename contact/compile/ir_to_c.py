@@ -11,8 +11,8 @@ import re
 import struct
 from collections.abc import Iterator, Sequence
 
-from .ir_function import Function
-from .ir_text import GLOBAL, identifier, number, split, type_in_c, unknown
+from contact.compile.ir_function import Function
+from contact.compile.ir_text import GLOBAL, identifier, number, split, type_in_c, unknown
 
 # Memory is read and written by memcpy, because the IR does not say which types a pointer may alias.
 _ACCESS = """static inline {type} load_{name}(const char *p) {{ {type} v; memcpy(&v, p, sizeof v); return v; }}

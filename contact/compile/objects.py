@@ -10,8 +10,8 @@ from multiprocessing import get_context
 from pathlib import Path
 from typing import Any
 
-from .emit import refuse_the_rest
-from .ir_to_c import as_c
+from contact.compile.emit import refuse_the_rest
+from contact.compile.ir_to_c import as_c
 
 #: Platform of FMI 2.0 → LLVM triple. Code is optimised for the first; the others differ only in their calling conventions.
 TRIPLES = {
