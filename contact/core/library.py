@@ -57,8 +57,8 @@ ENVIRONMENT = {
     "NUMBA_DISABLE_INTEL_SVML": "1",
     "NUMBA_DISABLE_ERROR_MESSAGE_HIGHLIGHTING": "1",  # of overloads that do not fit, which nobody reads
 }
-#: Libraries that were not used for this time [s] are removed. At most `_MOST` are kept.
-_STALE, _MOST = 30 * 86400.0, 8
+#: Libraries that were not used for this time [s] are removed. At most `_MOST` are kept besides those of the last hour.
+_STALE, _RECENT, _MOST = 30 * 86400.0, 3600.0, 8
 PREFIX = "wheelrail-contact-"
 
 
@@ -370,12 +370,16 @@ def _not_writable(folder: Path, error: OSError) -> ImportError:
 
 
 def _remove_stale(base: Path) -> None:
-    """Remove libraries that were not used for `_STALE` seconds, and all but the `_MOST` latest."""
+    """Remove libraries that were not used for `_STALE` seconds, and all but the `_MOST` latest and those of the last hour.
+
+    Many checkouts share the folder: none removes what another one uses at present.
+    """
     kept = sorted(
         (path for path in base.glob(PREFIX + "*") if path.is_dir()),
         key=lambda path: path.stat().st_mtime,
         reverse=True,
     )
     for i, path in enumerate(kept):
-        if i >= _MOST or path.stat().st_mtime < time.time() - _STALE:
+        age = time.time() - path.stat().st_mtime
+        if age > _STALE or (i >= _MOST and age > _RECENT):
             shutil.rmtree(path, ignore_errors=True)
