@@ -8,7 +8,7 @@ import subprocess
 import numpy as np
 import pytest
 
-from contact.compile.library import C_INTERFACE
+from contact.compile.library import C_INTERFACE, flags
 from contact.compile.objects import objects
 from contact.geometry import profile
 from contact.geometry.wheelset import Pair, Pose, Velocity
