@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 
+from contact.errors import require_number
 from contact.friction import Friction
 from contact.geometry.flexible import WheelOffset
 from contact.geometry.records import Pose, Velocity
@@ -22,6 +23,7 @@ from contact.inp.mesh import Wheel, cornered, flattened, flattened_rows, turned
 from contact.inp.reasons import refuse, require_digits
 from contact.inp.results import PatchResult, Result
 from contact.inputs.creepage import Creepage
+from contact.kernels.records import LARGEST_ANGLE
 from contact.pair.curved import Elements
 from contact.pair.elastic_rail import ElasticRail
 from contact.pair.halfspace import Instant
@@ -30,7 +32,17 @@ from contact.pair.solution import Contact, PairSolution, Solved
 from contact.pair.transient import TransientPair
 from contact.pair.wheel_rail import WheelRailPair
 
+#: Largest roll [rad]; the search misses contacts at larger yaw than is allowed elsewhere.
+_LARGEST_ROLL = 0.3
 _LAWS = {2: ("linear", "FLIN"), 3: ("rational", "FRAT"), 4: ("exponential", "FEXP")}
+
+
+class _Pose(Pose):
+    """A pose with a larger roll, as single wheels have it."""
+
+    def __post_init__(self) -> None:
+        require_number("ROLL", self.roll, -_LARGEST_ROLL, _LARGEST_ROLL)
+        require_number("YAW", self.yaw, -LARGEST_ANGLE, LARGEST_ANGLE)
 
 
 def require_supported(case: Case, by_strips: bool) -> None:
@@ -79,7 +91,7 @@ class _FilePair(TransientPair):
     def _moving(self, at: Instant, **options: Any) -> Bodies:
         case = self.case
         if self.pair.rail.roller_radius is not None:
-            options["roller"] = Roller(case["NOMRADR"], case["NOMRADR"])
+            options["roller"] = Roller(case["NOMRADR"], case["NOMRADR"], -at.station)
         return super()._moving(at, curvature=case["CURV"], own_axis=False, **options)
 
     def _rolling(self, patch: SurfacePatch, at: Instant) -> tuple[Creepage, float]:
@@ -188,7 +200,7 @@ class PairRunner:
         if digits["F"] == 3:
             ky, kz = (case[f"K{axis}RAIL"] or math.inf for axis in "YZ")
             given["rail"] = ElasticRail(ky, kz, case["FYRAIL"], case["FZRAIL"])
-        pose = Pose(case["Y_WS"], case.get("Z_WS", 0.0) if digits["N"] == 0 else 0.0, case["ROLL"], case["YAW"])
+        pose = _Pose(case["Y_WS"], case.get("Z_WS", 0.0) if digits["N"] == 0 else 0.0, case["ROLL"], case["YAW"])
         if isinstance(pair, _FilePair):
             found = self._stepped(case, pair, pose, velocity, given)
         else:

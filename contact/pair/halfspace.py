@@ -80,6 +80,8 @@ class HalfspacePair(AnyPair):
             raise ContactError(f"layer = {layer!r} is not a contact.ThirdBody")
         self.pair, self.layer = pair.again(), layer
         self._turn = self.pair._turn
+        self._depth: float | None = None
+        self._share = 1.0
 
     @one_thread
     def solve(
@@ -135,6 +137,7 @@ class HalfspacePair(AnyPair):
         rail: ElasticRail | None,
     ) -> PairSolution:
         """Return the solution for what is given of height, forces and springs."""
+        self._begin()
         given = {"load": load, "penetration": penetration, "vertical": vertical}
         if sum(amount is not None for amount in given.values()) > 1:
             raise ContactError(f"of {given} only one may be given")
@@ -158,6 +161,10 @@ class HalfspacePair(AnyPair):
         return drive(
             turning, at.velocity, self.pair.nominal_radius, self.pair.material.shear_modulus, force, torque, self._pull
         )
+
+    def _begin(self) -> None:
+        """Forget where the searches of the last call have ended: penetration [m], and share of the normal forces."""
+        self._depth, self._share = None, 1.0
 
     def _pull(self, found: PairSolution) -> float:
         """Return the longitudinal force on the wheel [N]."""
@@ -211,7 +218,7 @@ class HalfspacePair(AnyPair):
         origin = (y if pair.side == "right" else -y) + rail.y, z + rail.z
         radius = pair.rail.roller_radius
         if radius is not None and "roller" not in options:
-            options["roller"] = Roller(radius, origin[1] + radius)
+            options["roller"] = Roller(radius, origin[1] + radius, -at.station)
         pose = replace(at.pose, z=self._height)
         return Bodies(pose, at.velocity, pair.nominal_radius, rail, origin, at.offset, self._datum, **options)
 
@@ -229,12 +236,14 @@ class HalfspacePair(AnyPair):
         The normal forces carry it less the vertical part of friction, which is found by the secant method, from the force
         with friction over that without.
         """
-        carried, before = vertical, None
+        carried, before = vertical * self._share, None
         for step in range(_MOST_STEPS):
-            within(self.pair.settle)(carried)
+            within(self.pair.settle)(carried, self._depth)
+            self._depth = self.pair.depth
             found = self._solution(within(self.pair.found)(), at)
             miss = vertical - found.Q
             if abs(miss) <= (_TOLERANCE if step < _MOST_STEPS // 2 else _WIDER) * vertical:
+                self._share = carried / vertical if vertical > 0.0 else 1.0
                 return found
             slope = 1.0 if before is None else (carried - before[0]) / (before[1] - miss)
             before = carried, miss

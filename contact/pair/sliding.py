@@ -48,10 +48,11 @@ class Sliding(NamedTuple):
 
 
 class Roller(NamedTuple):
-    """Radius of a roller where its profile has z = 0 [m], and height of its axis in the track, down [m]."""
+    """Radius of a roller where its profile has z = 0, height of its axis in the track, down, and its place along it [m]."""
 
     radius: float
     axis: float
+    ahead: float = 0.0
 
 
 class Bodies:
@@ -106,7 +107,8 @@ class Bodies:
         if roller is not None:
             turns = np.array([0.0, velocity.forward / roller.radius, 0.0])
             arm = np.array([0.0, 0.0, z - roller.axis])
-            self.rail = Twist(self.rail.o, rates[0] + np.cross(turns, arm), rates[1] + turns)
+            place = self.rail.o + np.array([roller.ahead, 0.0, 0.0])
+            self.rail = Twist(place, rates[0] + np.cross(turns, arm), rates[1] + turns)
         elif curvature:
             turns = np.array([0.0, 0.0, -velocity.forward * curvature])
             self.rail = Twist(self.rail.o, rates[0] + np.cross(turns, self.rail.o), rates[1] + turns)
@@ -135,4 +137,4 @@ def displaced(pose: Pose, offset: WheelOffset, datum: float) -> tuple[Pose, Arra
     moved = np.array([offset.x, offset.y, offset.z])
     roll, yaw = pose.roll + offset.roll, pose.yaw + offset.yaw
     moved = moved + datum * (np.array(axle(pose.roll, pose.yaw)) - np.array(axle(roll, yaw)))
-    return Pose(pose.y + float(moved[1]), pose.z + float(moved[2]), roll, yaw), moved
+    return type(pose)(pose.y + float(moved[1]), pose.z + float(moved[2]), roll, yaw), moved

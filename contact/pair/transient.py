@@ -110,10 +110,13 @@ class TransientPair(HalfspacePair):
         self._step = _Step(math.inf)
 
     def _kept(self) -> Any:
-        return self._left
+        return self._left, self._depth, self._share
 
     def _keep(self, kept: Any) -> None:
-        self._left = kept
+        self._left, self._depth, self._share = kept
+
+    def _begin(self) -> None:
+        """Search on from where the last step has ended."""
 
     @property
     def state(self) -> tuple[Left, ...]:

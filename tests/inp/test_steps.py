@@ -178,3 +178,27 @@ def test_a_search_on_true_surfaces_gives_a_narrow_patch_the_forces_of_its_plane(
     assert found.refused == ""
     for name in ("FX(TR)", "FY(TR)", "FZ(TR)"):
         assert found.values[name] == pytest.approx(plane[name], abs=0.01 * plane["FZ(TR)"])
+
+
+def test_a_sphere_on_a_rail_has_the_same_contact_at_any_roll(tmp_path):
+    lines = "0. 0. 0.03 {} 0. 0.", "1000. 0. 0. 0. 0. -10."
+    forces = []
+    for roll in (0.0, 0.1, 0.25):
+        sequence(tmp_path, [("1203000", False, (lines[0].format(roll), lines[1]))])
+        t = np.linspace(0.4, -0.4, 201)
+        ball = "\n".join(f"{100 * np.sin(a):.9f} {100 * np.cos(a) - 100:.9f}" for a in t)
+        tmp_path.joinpath("plane.txt").write_text(ball)
+        found = inp.solve(inp.read(tmp_path / "case.inp"))[0]
+        assert found.refused == ""
+        forces.append(found.patches[0].values["FN"])
+        assert found.patches[0].values["CPHI"] == pytest.approx(
+            10.0 * np.sin(roll) / (0.5 + 0.5 * np.cos(roll)), rel=2e-3, abs=1e-6
+        )
+    assert forces[1:] == pytest.approx(forces[:1] * 2, rel=1e-3)
+
+
+def test_a_yaw_beyond_the_search_is_refused(tmp_path):
+    assert (
+        sequence(tmp_path, [("1203000", False, ("0. 0. 0.03 0. 0.15 0.", "1000. 0. 0. 0. 0. -10."))])[0].refused
+        == "input"
+    )

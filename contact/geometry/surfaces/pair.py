@@ -188,7 +188,7 @@ class SurfacePair(Posed):
         motion.reach, motion.tilted, motion.slowest = self.reach, self.tilted, self.reference_speed
         self.space.case["G"], self.space.case["nu"] = material.shear_modulus, material.poisson_ratio
         self.patches, self.separations = self.space.patches, self.space.separations
-        self._pose = Pose()  # of the last `place`, for errors
+        self._pose, self.depth = Pose(), 0.0  # of the last `place`, for errors; penetration that `settle` found [m]
 
     def _apart(self, pose: Pose) -> ContactError:
         return ContactError(f"pose.y = {pose.y:g}: the {self.side} wheel does not lie above its rail")
@@ -272,29 +272,29 @@ class SurfacePair(Posed):
         return within(self.found)(mode, amount)
 
     @one_thread
-    def settle(self, load: float) -> float:
+    def settle(self, load: float, start: float | None = None) -> float:
         """Set the height at which the pressures of the half space carry a vertical load [N]; return its relative error.
 
         F^(2/3) is nearly linear in the penetration (Hertz). Where a surface ends or has an edge, the force may jump with z.
-        Then the height is the best of those that were tried.
+        Then the height is the best of those tried. The search begins at the penetration `start` [m].
         """
         if load <= 0.0:
             self._search(Height.PENETRATION, 0.0)
             return 0.0
         target = load ** (2.0 / 3.0)
-        tried: list[tuple[float, float]] = []
+        tried: list[tuple[float, float, float]] = []
 
         def residual(depth: float) -> float:
             force = within(self.carried)(Height.PENETRATION, depth)
-            tried.append((abs(force - load), self.z))
+            tried.append((abs(force - load), self.z, depth))
             return 0.0 if tried[-1][0] <= _LOAD_TOLERANCE * load else force ** (2.0 / 3.0) - target
 
-        p = min(1e-4 * (load / 1e5) ** (2.0 / 3.0), 0.5 * DEEPEST)
+        p = min(start or 1e-4 * (load / 1e5) ** (2.0 / 3.0), 0.5 * DEEPEST)
         if rising_root(residual, p, target / p, (0.0, DEEPEST), shortest=_SHORTEST, most=_MOST).beyond:
             raise ContactError(
                 f"load = {load:g}: no z was found at which the {self.side} wheel carries it on this rail"
             )
-        missed, self.space.motion[0].z = min(tried)
+        missed, self.space.motion[0].z, self.depth = min(tried)
         return missed / load
 
     @one_thread
