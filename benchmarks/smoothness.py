@@ -17,7 +17,7 @@ import numpy as np
 import contact
 from benchmarks.tables import table, tell
 from contact.geometry import profile, wheelset
-from contact.solver import N_ELEMENTS, N_STRIPS
+from contact.inputs.options import N_ELEMENTS, N_STRIPS
 from contact.theory import kalker
 
 MU, LOAD = 0.3, 80e3
@@ -195,7 +195,7 @@ def resolution_changes(normal: str, tangential: str) -> Array:
     """
     shapes: list[contact.Separation] = [contact.Separation.hertzian(1.0, 10.0**u) for u in (-1, -0.5, 0, 0.5, 1)]
     shapes += [at[0].separation for at in located("one plane", -8.0, 8.0, 0.5)[1]]
-    N, M = N_STRIPS, N_ELEMENTS
+    N, M = N_STRIPS.usual, N_ELEMENTS.usual
     rng = np.random.default_rng(3)
     sign = rng.choice([-1.0, 1.0], (3, 16))
     xi, eta, phi = sign * np.array([1e-3, 1e-3, 0.5])[:, None] * 10 ** rng.uniform(-1, 0.7, (3, 16))

@@ -15,6 +15,7 @@ from contact.errors import ContactError
 from contact.friction import LARGEST, Friction
 from contact.inputs.creepage import LARGEST_CREEPAGE, Creepage
 from contact.inputs.material import STEEL, Material
+from contact.inputs.options import N_ELEMENTS, N_STRIPS
 from contact.inputs.plausibility import doubt_alike, doubt_gap, doubt_strips, doubt_values
 from contact.inputs.separation import Separation
 from contact.instance import workspace
@@ -27,7 +28,7 @@ from contact.kernels.pipeline import solve_cases
 from contact.kernels.records import CASE, RESULT
 from contact.registry import DEFAULT_NORMAL, DEFAULT_TANGENTIAL, lookup
 from contact.results import BEND, Forces, Jacobian
-from contact.solver import N_ELEMENTS, N_STRIPS, require_conformal, require_resolution
+from contact.solver import require_conformal, require_resolution
 
 _CHUNK = 256
 _PARTS = ("longitudinal", "lateral", "spin")
@@ -44,8 +45,8 @@ def forces(
     material: Material = STEEL,
     normal: str = DEFAULT_NORMAL,
     tangential: str = DEFAULT_TANGENTIAL,
-    n_strips: int = N_STRIPS,
-    n_elements: int = N_ELEMENTS,
+    n_strips: int = N_STRIPS.usual,
+    n_elements: int = N_ELEMENTS.usual,
     conformal: bool = False,
     threads: int | None = None,
     derivatives: bool = False,

@@ -22,17 +22,14 @@ from contact.halfspace.solve import press_gap, press_solution
 from contact.halfspace.third_body import ThirdBody
 from contact.inputs.creepage import Creepage, as_creepage
 from contact.inputs.material import STEEL, Material
+from contact.inputs.options import ITERATIONS, N_ELEMENTS, N_STRIPS
 from contact.inputs.plausibility import doubt_alike, doubt_case
 from contact.inputs.separation import Separation
-from contact.kernels.normal.strip_halfspace import MAX_ITERATIONS
 from contact.registry import DEFAULT_NORMAL, DEFAULT_TANGENTIAL, Method, lookup
 from contact.results import Solution
 from contact.solver import (
-    N_ELEMENTS,
-    N_STRIPS,
     Solver,
     require_conformal,
-    require_max_iterations,
     require_resolution,
     require_trustworthy,
 )
@@ -59,7 +56,7 @@ def solve(
     n_elements: int | None = None,
     spacing: float | tuple[float, float] | None = None,
     conformal: bool = False,
-    max_iterations: int = MAX_ITERATIONS,
+    max_iterations: int = ITERATIONS.usual,
     layer: ThirdBody | None = None,
     start: Solution | None = None,
     progress: Callable[[int, float], None] | None = None,
@@ -163,9 +160,9 @@ def solve(
     speed = require_number("speed", speed, 0.0)
     vector = creepage.longitudinal, creepage.lateral, creepage.spin
     doubt_case(load, approach, vector, surface.static, speed)
-    max_iterations = require_max_iterations(max_iterations)
+    max_iterations = ITERATIONS.require("max_iterations", max_iterations)
     method, rolling = lookup("normal", normal), lookup("tangential", tangential)
-    usual = (_N_OF_HALF_SPACE,) * 2 if method.elementwise else (N_STRIPS, N_ELEMENTS)
+    usual = (_N_OF_HALF_SPACE,) * 2 if method.elementwise else (N_STRIPS.usual, N_ELEMENTS.usual)
     n_strips, n_elements = require_resolution(
         *(default if given is None else given for given, default in zip((n_strips, n_elements), usual, strict=True))
     )

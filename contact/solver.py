@@ -17,6 +17,7 @@ from contact.friction import Friction, as_friction
 from contact.given_force import as_numbers, wanted_force
 from contact.inputs.creepage import Creepage, as_creepage
 from contact.inputs.material import STEEL, Material
+from contact.inputs.options import ITERATIONS, N_ELEMENTS, N_STRIPS
 from contact.inputs.plausibility import doubt_alike, doubt_case, doubt_gap, doubt_strips
 from contact.inputs.separation import Separation
 from contact.instance import workspace
@@ -27,15 +28,12 @@ from contact.kernels.enumerations import LoadKind
 from contact.kernels.given_force import solve_under_force
 from contact.kernels.jacobian import COLUMNS, ROWS, solve_with_jacobian
 from contact.kernels.normal.start import MEM_IMAGE
-from contact.kernels.normal.strip_halfspace import MAX_ITERATIONS
 from contact.kernels.pipeline import solve_cases
 from contact.kernels.records import FORCE_SEARCH, RESULT
 from contact.registry import DEFAULT_NORMAL, DEFAULT_TANGENTIAL, Method, lookup
 from contact.results import BEND, CaseForces, Jacobian, Prepared, Solution, Status
 from contact.view import trace
 
-#: Default resolution. On the patches of set D the normal force is then 0.06 %, the largest pressure 0.3 % off CONTACT's.
-N_STRIPS, N_ELEMENTS = 20, 20
 #: The methods of the thesis and a resolution for them, as arguments of `solve`, `forces`, `Solver` and `WheelRailPair`.
 THESIS: Mapping[str, Any] = MappingProxyType(
     {"normal": "analyn", "tangential": "fastrip", "n_strips": 30, "n_elements": 30}
@@ -45,13 +43,8 @@ N_SAMPLES = 101
 
 
 def require_resolution(n_strips: object, n_elements: object) -> tuple[int, int]:
-    """Return both as integers in [4, 1000], or raise a ContactError."""
-    return require_integer("n_strips", n_strips, 4, 1000), require_integer("n_elements", n_elements, 4, 1000)
-
-
-def require_max_iterations(value: object) -> int:
-    """Return `value` as an integer in [1, 1000], or raise a ContactError."""
-    return require_integer("max_iterations", value, 1, 1000)
+    """Return both as integers in their ranges, or raise a ContactError."""
+    return N_STRIPS.require("n_strips", n_strips), N_ELEMENTS.require("n_elements", n_elements)
 
 
 def require_conformal(tangential: Method) -> None:
@@ -104,14 +97,14 @@ class Solver(OwnsArrays):
         *,
         normal: str = DEFAULT_NORMAL,
         tangential: str = DEFAULT_TANGENTIAL,
-        n_strips: int = N_STRIPS,
-        n_elements: int = N_ELEMENTS,
+        n_strips: int = N_STRIPS.usual,
+        n_elements: int = N_ELEMENTS.usual,
         friction: float | Friction = 0.3,
         material: Material = STEEL,
         speed: float = 20.0,
         conformal: bool = False,
         n_samples: int = N_SAMPLES,
-        max_iterations: int = MAX_ITERATIONS,
+        max_iterations: int = ITERATIONS.usual,
     ) -> None:
         self.normal = lookup("normal", normal, batched=True)
         self.tangential = lookup("tangential", tangential, batched=True)
@@ -119,7 +112,7 @@ class Solver(OwnsArrays):
         if conformal:
             require_conformal(self.tangential)
         self.material, self.conformal = material, bool(conformal)
-        self.max_iterations = require_max_iterations(max_iterations)
+        self.max_iterations = ITERATIONS.require("max_iterations", max_iterations)
         self._case = cases(
             1, self.normal, self.tangential, material, conformal=conformal, max_iterations=self.max_iterations
         )

@@ -16,6 +16,7 @@ from contact.geometry import profile
 from contact.geometry.profile import Kind, Profile
 from contact.geometry.surfaces import RailSurface, SurfacePair, WheelSurface, compiled
 from contact.geometry.surfaces.deviation import out_of_round
+from contact.inputs.options import GAUGE, RADIUS
 from . import archive, profiles, resources
 from .tables.wheel_rail_surfaces import MOST_NUMBERS, RAIL, WHEEL
 
@@ -95,9 +96,11 @@ def main() -> None:
         "--polygon", type=_number, nargs=2, metavar=("ORDER", "M"), help="out-of-roundness: order, amplitude in m"
     )
     parser.add_argument(
-        "--radius", type=float, default=0.46, metavar="M", help="nominal radius, for a flat (default: 0.46)"
+        "--radius", type=float, default=RADIUS.usual, metavar="M", help="nominal radius, for a flat (default: 0.46)"
     )
-    parser.add_argument("--gauge", type=float, default=1.435, metavar="M", help="gauge, for a rail with one profile")
+    parser.add_argument(
+        "--gauge", type=float, default=GAUGE.usual, metavar="M", help="gauge, for a rail with one profile"
+    )
     parser.add_argument(
         "--origin", type=float, nargs=2, metavar=("Y", "Z"), help="place of the origin of a rail of slices in m"
     )

@@ -16,6 +16,7 @@ from itertools import product
 from typing import TypedDict, Unpack
 
 from contact.errors import require_number
+from contact.inputs.options import Real, Whole
 
 
 class Causality(StrEnum):
@@ -59,6 +60,16 @@ class Limits(TypedDict, total=False):
     maximum: float
     open_minimum: bool
     nominal: float | None
+
+
+class Taken(TypedDict, total=False):
+    """What a row has of an option of the library."""
+
+    start: float
+    minimum: float
+    maximum: float
+    open_minimum: bool
+    integer: bool
 
 
 class Attributes(Limits, total=False):
@@ -335,6 +346,16 @@ def with_twins(rows: Sequence[Variable]) -> tuple[Variable, ...]:
 def identifier(name: str) -> str:
     """Return the name of a row as an identifier, without dots and brackets."""
     return name.replace("[]", "").replace(".", "_")
+
+
+def taken(option: Whole | Real) -> Taken:
+    """Return start value and range of an option of the library."""
+    found: Taken = {"start": option.usual, "minimum": option.least}
+    if isinstance(option, Whole):
+        return {**found, "integer": True, "maximum": option.most}
+    if option.above:
+        found["open_minimum"] = True
+    return found if math.isinf(option.most) else {**found, "maximum": option.most}
 
 
 def parameter(name: str, description: str, **attributes: Unpack[Attributes]) -> Variable:

@@ -16,6 +16,7 @@ from contact.errors import ContactError, require_number
 from contact.geometry.profile import Profile
 from contact.geometry.records import Patch
 from contact.inputs.material import Material
+from contact.inputs.options import RADIUS
 from contact.instance.ownership import OwnsArrays, one_thread
 from contact.kernels.damage import deposit
 from contact.kernels.records import LEDGER
@@ -93,7 +94,7 @@ class Histogram(OwnsArrays):
         profile: Profile,
         *,
         width: float = 5e-4,
-        radius: float = 0.46,
+        radius: float = RADIUS.usual,
         parameters: DamageParameters | None = None,
     ) -> None:
         if not isinstance(profile, Profile):

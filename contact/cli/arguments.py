@@ -15,6 +15,7 @@ from contact.geometry import profile
 from contact.halfspace.third_body import ThirdBody
 from contact.inputs.creepage import Creepage
 from contact.inputs.material import STEEL, Material
+from contact.inputs.options import FLANGE_BACK, GAUGE, RADIUS
 
 
 @dataclass
@@ -83,9 +84,9 @@ class PlaceOptions:
 
     wheel: opt.WheelName = "s1002"
     rail: opt.RailName = "60e1"
-    radius: opt.Radius = 0.46
-    gauge: opt.Gauge = 1.435
-    back_to_back: opt.BackToBack = 1.360
+    radius: opt.Radius = RADIUS.usual
+    gauge: opt.Gauge = GAUGE.usual
+    back_to_back: opt.BackToBack = FLANGE_BACK.usual
     y: opt.Y = 0.0
     roll: opt.Roll = 0.0
     yaw: opt.Yaw = 0.0

@@ -11,6 +11,7 @@ from contact.cli import arguments
 from contact.cli import options as opt
 from contact.cli.output import deliver, prepare, reported, require_trusted
 from contact.cli.problem import load_or_standard
+from contact.inputs.options import FLANGE_BACK, GAUGE, RADIUS
 from contact.pair.curving import Curving, in_curve
 from contact.registry import DEFAULT_NORMAL, DEFAULT_TANGENTIAL
 from contact.study.table import number
@@ -39,9 +40,9 @@ def curving(
     height: Height = None,
     wheel: opt.WheelName = "s1002",
     rail: opt.RailName = "60e1",
-    radius: opt.Radius = 0.46,
-    gauge: opt.Gauge = 1.435,
-    back_to_back: opt.BackToBack = 1.360,
+    radius: opt.Radius = RADIUS.usual,
+    gauge: opt.Gauge = GAUGE.usual,
+    back_to_back: opt.BackToBack = FLANGE_BACK.usual,
     speed: opt.Speed = 20.0,
     reading: arguments.Reading,
     load: opt.Load = None,

@@ -19,6 +19,7 @@ from contact.cli.output import deliver, drawing, prepare, reported
 from contact.geometry import conicity as conicity_of
 from contact.geometry import contact_points, equivalent_conicity, nonlinearity, profile, steering
 from contact.geometry.wheelset import TAPE_FROM_FLANGE_BACK
+from contact.inputs.options import FLANGE_BACK, GAUGE, RADIUS
 
 _SHOWN = 21  # lines of a printed table of contact points; files contain all lines
 _CURVE = 121  # amplitudes of a drawn curve
@@ -45,10 +46,10 @@ class WheelsetOptions:
     rail: opt.RailName = "60e1"
     left_wheel: opt.LeftWheel = None
     left_rail: opt.LeftRail = None
-    radius: opt.Radius = 0.46
+    radius: opt.Radius = RADIUS.usual
     left_radius: opt.LeftRadius = None
-    gauge: opt.Gauge = 1.435
-    back_to_back: opt.BackToBack = 1.360
+    gauge: opt.Gauge = GAUGE.usual
+    back_to_back: opt.BackToBack = FLANGE_BACK.usual
     roll: opt.Rolls = False
 
     def pair(self, reading: arguments.Reading) -> dict[str, Any]:

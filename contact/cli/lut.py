@@ -20,6 +20,7 @@ from contact.cli.problem import load_or_standard
 from contact.cli.progress import progress_bar
 from contact.errors import ContactError, PlausibilityWarning
 from contact.geometry.wheelset import Pair
+from contact.inputs.options import FLANGE_BACK, GAUGE, RADIUS
 from contact.inputs.plausibility import doubt_values
 from contact.pair import WheelRailPair
 from contact.registry import DEFAULT_NORMAL, DEFAULT_TANGENTIAL
@@ -55,9 +56,9 @@ def lut(
     table: Chosen = None,
     wheel: opt.WheelName = "s1002",
     rail: opt.RailName = "60e1",
-    radius: opt.Radius = 0.46,
-    gauge: opt.Gauge = 1.435,
-    back_to_back: opt.BackToBack = 1.360,
+    radius: opt.Radius = RADIUS.usual,
+    gauge: opt.Gauge = GAUGE.usual,
+    back_to_back: opt.BackToBack = FLANGE_BACK.usual,
     reading: arguments.Reading,
     side: opt.Sides = opt.SideOption.right,
     load: opt.Load = None,

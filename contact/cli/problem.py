@@ -13,6 +13,7 @@ from contact.geometry import wheelset
 from contact.geometry.profile import Profile
 from contact.geometry.wheelset import Patch, Pose, Velocity
 from contact.inputs.creepage import Creepage
+from contact.inputs.options import FLANGE_BACK, GAUGE
 from contact.inputs.separation import Separation
 from contact.results import Solution
 from contact.solve import solve
@@ -54,8 +55,8 @@ class Position:
     pose: Pose
     speed: float
     radius: float
-    gauge: float = 1.435
-    back_to_back: float = 1.360
+    gauge: float = GAUGE.usual
+    back_to_back: float = FLANGE_BACK.usual
 
 
 def find_patches(case: Position, load: float | None, penetration: float | None) -> Iterator[tuple[str, int, Patch]]:

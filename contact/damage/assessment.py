@@ -14,6 +14,7 @@ from contact.damage.pearce_sherratt import PearceSherratt
 from contact.damage.usfd import Usfd
 from contact.errors import ContactError, only_with_fields, require_number
 from contact.inputs.material import Material
+from contact.inputs.options import RADIUS
 from contact.kernels.damage.assess import damage_kernel
 from contact.kernels.records import CASE, DAMAGE, DAMAGE_PARAMETERS, RESULT
 from contact.kernels.rows import DamageField, Field, Strip
@@ -155,7 +156,9 @@ class Damage:
         return methods().tangential[self.tangential].fields
 
 
-def evaluate(solution: Solution, wheel_radius: float = 0.46, parameters: DamageParameters | None = None) -> Damage:
+def evaluate(
+    solution: Solution, wheel_radius: float = RADIUS.usual, parameters: DamageParameters | None = None
+) -> Damage:
     """Return all damage indices of a solution.
 
     Parameters
@@ -210,7 +213,9 @@ class Assessed(NamedTuple):
     damage_fields: Array
 
 
-def assess(solution: Solution, wheel_radius: float = 0.46, parameters: DamageParameters | None = None) -> Assessed:
+def assess(
+    solution: Solution, wheel_radius: float = RADIUS.usual, parameters: DamageParameters | None = None
+) -> Assessed:
     """Return the results of `evaluate` as the kernel's arrays. Parameters as in `evaluate`."""
     strips, fields, case, result = _arrays(solution)
     damage, damage_fields = np.zeros(1, DAMAGE)[0], np.zeros((len(DamageField), *solution.p.shape))

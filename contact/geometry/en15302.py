@@ -18,6 +18,7 @@ from contact.arrays import Array, require_numbers
 from contact.errors import ContactError, require_number
 from contact.geometry.rigid import ContactPoints, contact_points
 from contact.geometry.shape import Profile
+from contact.inputs.options import RADIUS
 
 STEP = 2e-5  # step of the table of Δr [m]
 BEYOND = 5e-3  # the table extends beyond the largest amplitude by this [m], on both sides
@@ -46,7 +47,7 @@ class Conicity:
     centre: Array
     points: ContactPoints
 
-    def wavelength(self, base: float = 1.5, radius: float = 0.46) -> Array:
+    def wavelength(self, base: float = 1.5, radius: float = RADIUS.usual) -> Array:
         """Return Klingel's wavelength λ = 2π √(e r0/(2 tan γe)) [m]; infinite unless the conicity is positive.
 
         `base` is the distance e of the tape circles [m], `radius` their radius r0 [m].

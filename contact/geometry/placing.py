@@ -11,6 +11,7 @@ from contact.geometry import inspection, repair
 from contact.geometry.formats import Content
 from contact.geometry.inspection import Points
 from contact.geometry.shape import Kind
+from contact.inputs.options import GAUGE_POINT
 
 
 def placed(
@@ -57,7 +58,7 @@ def _origin(points: Points, kind: Kind, path: Path) -> Points:
     y, z = points.T
     if kind == "rail":
         top = z.min()
-        gauge = np.flatnonzero((z > top + 0.014) & (np.arange(z.size) < np.argmin(z)))
+        gauge = np.flatnonzero((z > top + GAUGE_POINT.usual) & (np.arange(z.size) < np.argmin(z)))
         if not gauge.size:
             raise ContactError(f"zero = 'shape': the gauge side of {path.name!r} does not reach 14 mm below the top")
         return np.array([y[gauge[-1]] + inspection.CROWN_FROM_GAUGE, top])

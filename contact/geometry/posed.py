@@ -8,6 +8,7 @@ import numpy as np
 
 from contact.errors import ContactError, require_number
 from contact.geometry.records import Irregularity, Pose, Velocity
+from contact.inputs.options import RADIUS
 from contact.inputs.plausibility import USUAL, doubt_value
 from contact.instance.ownership import OwnsArrays, one_thread
 from contact.kernels.enumerations import Height, NoAnswer
@@ -39,7 +40,7 @@ class Posed(OwnsArrays):
             raise ContactError(f"side = {side!r} is neither 'right' nor 'left'")
         self.side: Side = side
         self._mirror = 1.0 if side == "right" else -1.0
-        self.nominal_radius = require_number("nominal_radius", nominal_radius, 0.05, 2.0)
+        self.nominal_radius = RADIUS.require("nominal_radius", nominal_radius)
         self.reference_speed = require_number("reference_speed", reference_speed, *_REFERENCES)
         self._doubted = False
         self.told: set[str] = set()  # for what there was a ModelWarning

@@ -15,6 +15,7 @@ from contact.arrays import Array, as_array
 from contact.errors import ContactError, require_number
 from contact.geometry.shape import Profile
 from contact.geometry.wheelset import Pair, Pose
+from contact.inputs.options import FLANGE_BACK, GAUGE, GAUGE_POINT, RADIUS
 
 _DEPTH = 1e-9  # penetration [m] at which a patch counts as a point: it is some micrometres wide
 _STEEPEST_ROLL = 0.1  # largest roll of a pose [rad]
@@ -76,11 +77,11 @@ def contact_points(
     *,
     left_wheel: Profile | None = None,
     left_rail: Profile | None = None,
-    nominal_radius: float = 0.460,
+    nominal_radius: float = RADIUS.usual,
     left_radius: float | None = None,
-    gauge: float = 1.435,
-    flange_back: float = 1.360,
-    gauge_point: float = 0.014,
+    gauge: float = GAUGE.usual,
+    flange_back: float = FLANGE_BACK.usual,
+    gauge_point: float = GAUGE_POINT.usual,
     roll: bool = False,
 ) -> ContactPoints:
     """Return the contact points of rigid wheels on rigid rails, without yaw.

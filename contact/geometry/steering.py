@@ -20,6 +20,7 @@ from contact.arrays import Array, require_numbers
 from contact.errors import ContactError, require_number
 from contact.geometry.en15302 import equivalent_conicity
 from contact.geometry.rigid import ContactPoints
+from contact.inputs.options import RADIUS
 
 FLANGE = math.radians(30.0)
 
@@ -53,7 +54,12 @@ class Steering:
 
 
 def steering(
-    points: ContactPoints, curve_radius: ArrayLike, *, base: float = 1.5, radius: float = 0.46, flange: float = FLANGE
+    points: ContactPoints,
+    curve_radius: ArrayLike,
+    *,
+    base: float = 1.5,
+    radius: float = RADIUS.usual,
+    flange: float = FLANGE,
 ) -> Steering:
     """Return the radial steering index of a wheelset whose right wheel is the outer one.
 

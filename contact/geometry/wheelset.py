@@ -25,19 +25,28 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from contact.arrays import Array, as_array
-from contact.errors import ContactError, require_integer, require_number
+from contact.errors import ContactError, require_number
 from contact.geometry.posed import Posed, Side
 from contact.geometry.records import Irregularity, Patch, Pose, Velocity
 from contact.geometry.shape import Profile
 from contact.inputs.creepage import Creepage
 from contact.inputs.material import STEEL, Material
+from contact.inputs.options import (
+    COMBINE_ANGLE,
+    COMBINE_DISTANCE,
+    FLANGE_BACK,
+    GAUGE,
+    GAUGE_POINT,
+    MOST_PATCHES,
+    RADIUS,
+)
 from contact.inputs.separation import Separation
 from contact.instance import workspace
 from contact.instance.ownership import one_thread, within
 from contact.kernels.arrays import Search
 from contact.kernels.geometry.prepare import facing, move, rail_origin, take_nodes
 from contact.kernels.geometry.settle import first_touch, settle
-from contact.kernels.records import MAX_PATCHES, SLOWEST, TAPE_FROM_FLANGE_BACK
+from contact.kernels.records import SLOWEST, TAPE_FROM_FLANGE_BACK
 from contact.kernels.rows import Curve
 
 __all__ = ["Irregularity", "Pair", "Patch", "Pose", "Velocity", "contacts"]
@@ -105,13 +114,13 @@ class Pair(Posed):
         rail: Profile,
         *,
         side: Side = "right",
-        nominal_radius: float = 0.460,
-        gauge: float = 1.435,
-        flange_back: float = 1.360,
-        gauge_point: float = 0.014,
-        combine_distance: float = 8e-3,
-        combine_angle: float = math.radians(10.0),
-        most_patches: int = MAX_PATCHES,
+        nominal_radius: float = RADIUS.usual,
+        gauge: float = GAUGE.usual,
+        flange_back: float = FLANGE_BACK.usual,
+        gauge_point: float = GAUGE_POINT.usual,
+        combine_distance: float = COMBINE_DISTANCE.usual,
+        combine_angle: float = COMBINE_ANGLE.usual,
+        most_patches: int = MOST_PATCHES.usual,
         samples: int | ArrayLike = SAMPLES,
         material: Material = STEEL,
         reference_speed: float = SLOWEST,
@@ -123,13 +132,13 @@ class Pair(Posed):
         self.profiles = wheel, rail
         grid, n = _grid(samples)
         self.space: Search = workspace.search(_facing(wheel), _facing(rail), grid, n)
-        origin = place_of_rail(rail, require_number("gauge", gauge, 0.1, 3.0), gauge_point)
+        origin = place_of_rail(rail, GAUGE.require("gauge", gauge), gauge_point)
         motion = self.space.motion[0]
         motion.radius = self.nominal_radius
-        motion.tape = 0.5 * require_number("flange_back", flange_back, 0.1, 3.0) + TAPE_FROM_FLANGE_BACK
-        motion.combine_distance = require_number("combine_distance", combine_distance, 0.0)
-        motion.combine_angle = require_number("combine_angle", combine_angle, 0.0)
-        motion.most_patches = require_integer("most_patches", most_patches, 1, MAX_PATCHES)
+        motion.tape = 0.5 * FLANGE_BACK.require("flange_back", flange_back) + TAPE_FROM_FLANGE_BACK
+        motion.combine_distance = COMBINE_DISTANCE.require("combine_distance", combine_distance)
+        motion.combine_angle = COMBINE_ANGLE.require("combine_angle", combine_angle)
+        motion.most_patches = MOST_PATCHES.require("most_patches", most_patches)
         motion.mirror, motion.slowest = self._mirror, self.reference_speed
         motion.origin_y, motion.origin_z = origin
         self._widths = f"gauge = {gauge:g} and flange_back = {flange_back:g}"
@@ -290,7 +299,7 @@ def _facing(profile: Profile) -> Array:
 
 def place_of_rail(rail: Profile, gauge: float, gauge_point: float) -> tuple[float, float]:
     """Return (y, z) [m] of the origin of the right rail's profile in track coordinates."""
-    require_number("gauge_point", gauge_point, 0.0, open_minimum=True)
+    GAUGE_POINT.require("gauge_point", gauge_point)
     y, z, deepest = rail_origin(_rows(rail), gauge, gauge_point)
     if deepest < gauge_point:
         raise ContactError(

@@ -7,7 +7,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from contact.friction import Friction
 from contact.inputs.material import Material
-from contact.kernels.normal.strip_halfspace import MAX_ITERATIONS
+from contact.inputs.options import ITERATIONS
 from contact.kernels.records import CASE
 from contact.registry import Method
 
@@ -21,7 +21,7 @@ def cases(
     material: Material,
     *,
     conformal: bool = False,
-    max_iterations: int = MAX_ITERATIONS,
+    max_iterations: int = ITERATIONS.usual,
 ) -> Cases:
     """Return `n` CASE records for these methods and this material. All other members are zero."""
     made = np.zeros(n, CASE)

@@ -15,6 +15,7 @@ from contact.friction import Friction
 from contact.geometry.profile import Profile
 from contact.geometry.records import Pose, Velocity
 from contact.geometry.wheelset import Pair
+from contact.inputs.options import FLANGE_BACK, GAUGE, RADIUS
 from contact.inputs.plausibility import doubt_gap
 from contact.pair.solution import PairSolution
 from contact.pair.wheel_rail import WheelRailPair
@@ -79,9 +80,9 @@ def in_curve(
     lead: float = 0.0,
     height: float | None = None,
     friction: float | Friction = 0.3,
-    nominal_radius: float = 0.460,
-    gauge: float = 1.435,
-    flange_back: float = 1.360,
+    nominal_radius: float = RADIUS.usual,
+    gauge: float = GAUGE.usual,
+    flange_back: float = FLANGE_BACK.usual,
     **options: Any,
 ) -> Curving:
     """Return the steady motion of a wheelset in a circular curve to the right.

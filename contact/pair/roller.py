@@ -31,13 +31,13 @@ from contact.geometry.wheelset import Pair
 from contact.given_force import rising_root
 from contact.inputs.creepage import Creepage
 from contact.inputs.material import STEEL, Material
+from contact.inputs.options import N_ELEMENTS, N_STRIPS
 from contact.inputs.separation import Separation
 from contact.instance.ownership import one_thread, within
 from contact.pair.motion import AnyPair
 from contact.pair.solution import PairSolution, Solved, of_patches
 from contact.registry import DEFAULT_NORMAL, DEFAULT_TANGENTIAL
 from contact.solve import solve
-from contact.solver import N_ELEMENTS, N_STRIPS
 
 #: Search of the penetration under a load: where it starts, its end [m], the shortest bracket [m], and the error of the load.
 _START, _DEEPEST, _SHORTEST, _TOLERANCE = 5e-5, 2e-3, 1e-12, 1e-6
@@ -79,8 +79,8 @@ class RollerRig(AnyPair):
         material: Material = STEEL,
         normal: str = DEFAULT_NORMAL,
         tangential: str = DEFAULT_TANGENTIAL,
-        n_strips: int = N_STRIPS,
-        n_elements: int = N_ELEMENTS,
+        n_strips: int = N_STRIPS.usual,
+        n_elements: int = N_ELEMENTS.usual,
     ) -> None:
         if not isinstance(pair, Pair):
             raise ContactError(f"pair = {pair!r} is not a contact.geometry.wheelset.Pair")

@@ -18,6 +18,7 @@ from contact.geometry.records import Irregularity, Pose, Velocity
 from contact.geometry.surfaces import SurfacePair
 from contact.geometry.wheelset import Pair
 from contact.inputs.material import STEEL, Material
+from contact.inputs.options import ITERATIONS, N_ELEMENTS, N_STRIPS
 from contact.inputs.plausibility import doubt_alike, doubt_gap, doubt_strips
 from contact.instance import workspace
 from contact.instance.case import SURFACE, cases, surface_bytes
@@ -25,7 +26,6 @@ from contact.instance.ownership import one_thread, turn_of, within
 from contact.kernels.arrays import Aside, Bench, Given, Ledger, Search, SurfaceSearch
 from contact.kernels.enumerations import Height, NoAnswer
 from contact.kernels.flexible import solve_on_profiles, solve_on_surfaces
-from contact.kernels.normal.strip_halfspace import MAX_ITERATIONS
 from contact.kernels.pair_conditions import derive_on_profiles, derive_on_surfaces
 from contact.kernels.records import GIVEN, LARGEST_ANGLE
 from contact.kernels.rows import Moved
@@ -38,7 +38,7 @@ from contact.registry import DEFAULT_NORMAL, DEFAULT_TANGENTIAL, lookup
 from contact.results import BEND, PairJacobian
 from contact.results.jacobian import columns_of_pair
 from contact.solve import solve
-from contact.solver import N_ELEMENTS, N_STRIPS, require_max_iterations, require_resolution
+from contact.solver import require_resolution
 from contact.view.notebook import figures
 
 _RIGID, _STRAIGHT = ElasticRail(), WheelOffset()
@@ -91,10 +91,10 @@ class WheelRailPair(AnyPair):
         material: Material = STEEL,
         normal: str = DEFAULT_NORMAL,
         tangential: str = DEFAULT_TANGENTIAL,
-        n_strips: int = N_STRIPS,
-        n_elements: int = N_ELEMENTS,
+        n_strips: int = N_STRIPS.usual,
+        n_elements: int = N_ELEMENTS.usual,
         conformal: bool = False,
-        max_iterations: int = MAX_ITERATIONS,
+        max_iterations: int = ITERATIONS.usual,
         damage: DamageParameters | None = None,
         ledger: Ledger | None = None,
     ) -> None:
@@ -128,7 +128,12 @@ class WheelRailPair(AnyPair):
         arrays = workspace.allocate(method, rolling, material.poisson_ratio, size)
         self.bench: Bench = workspace.bench(size, self.pair.space, arrays, ledger or workspace.closed_ledger())
         self.bench.case[:] = cases(
-            1, method, rolling, material, conformal=conformal, max_iterations=require_max_iterations(max_iterations)
+            1,
+            method,
+            rolling,
+            material,
+            conformal=conformal,
+            max_iterations=ITERATIONS.require("max_iterations", max_iterations),
         )
         constant = isinstance(pair, Pair)
         self._solve = solve_on_profiles if constant else solve_on_surfaces

@@ -8,9 +8,8 @@ from dataclasses import replace
 import contact
 from contact import Status, friction, registry
 from contact.inputs.material import THERMAL_RANGE, Thermal
-from contact.kernels.normal.strip_halfspace import MAX_ITERATIONS
-from contact.solver import N_ELEMENTS, N_STRIPS
-from ..variables import Enumeration, Variable, output, parameter
+from contact.inputs.options import ITERATIONS, N_ELEMENTS, N_STRIPS
+from ..variables import Enumeration, Variable, output, parameter, taken
 
 NORMAL_METHOD = Enumeration("NormalMethod", tuple((m.name, m.title) for m in contact.methods().batched.normal.values()))
 TANGENTIAL_METHOD = Enumeration(
@@ -129,23 +128,15 @@ def _parameters() -> Iterable[Variable]:
     yield parameter(
         "method.max_iterations",
         "Most iterations of interacting strips, which cap the time of a step; then the status is NotConverged",
-        integer=True,
-        start=MAX_ITERATIONS,
-        minimum=1,
-        maximum=1000,
+        **taken(ITERATIONS),
     )
     yield parameter(
         "resolution.n_strips",
         "Strips per patch. Above 200 the time of interacting strips grows with the cube of those of all patches: a second for "
         "1000, a minute for several patches of 1000",
-        integer=True,
-        start=N_STRIPS,
-        minimum=4,
-        maximum=1000,
+        **taken(N_STRIPS),
     )
-    yield parameter(
-        "resolution.n_elements", "Elements per strip", integer=True, start=N_ELEMENTS, minimum=4, maximum=1000
-    )
+    yield parameter("resolution.n_elements", "Elements per strip", **taken(N_ELEMENTS))
     yield parameter(
         "friction.law", "Dependence of friction on sliding velocity", enumeration=FRICTION_LAW, start="Coulomb"
     )

@@ -9,6 +9,7 @@ from typing import Unpack
 
 from contact import friction
 from contact.inputs.creepage import LARGEST_CREEPAGE
+from contact.inputs.options import RADIUS
 from contact.inputs.separation import LARGEST_ROLLING, LARGEST_TILT
 from contact.kernels.records import MAX_PATCHES
 from ..variables import Attributes, Enumeration, Table, Variable, output, parameter, signal
@@ -104,7 +105,7 @@ def _parameters(points: int) -> Iterable[Variable]:
         "wheel.radius",
         "Rolling radius (damage per revolution)",
         unit="m",
-        start=0.46,
+        start=RADIUS.usual,
         minimum=0.0,
         open_minimum=True,
     )
@@ -125,7 +126,7 @@ def _inputs(points: int) -> Iterable[Variable]:
         "geometry.A",
         f"Half curvature in the rolling direction; values below {FLATTEST:g} are replaced by {FLATTEST:g}",
         unit="1/m",
-        start=0.5 / 0.46,
+        start=0.5 / RADIUS.usual,
         minimum=0.0,
         shape=(points,),
         used=_SAMPLES,
@@ -144,12 +145,12 @@ def _inputs(points: int) -> Iterable[Variable]:
         "geometry.rolling",
         "Rotation about y per metre rolled, cos(contact angle)/rolling radius, used when geometry.surface = Conformal",
         unit="rad/m",
-        start=1.0 / 0.46,
+        start=1.0 / RADIUS.usual,
         minimum=-LARGEST_ROLLING,
         maximum=LARGEST_ROLLING,
         used=_CONFORMAL,
     )
-    for letter, axis, start in (("A", "in the rolling direction", 0.5 / 0.46), ("B", "across", 1.0)):
+    for letter, axis, start in (("A", "in the rolling direction", 0.5 / RADIUS.usual), ("B", "across", 1.0)):
         yield signal(
             f"geometry.{letter}0",
             f"Half curvature {axis}, used when geometry.kind = Curvatures; less than {FLATTEST:g} counts as {FLATTEST:g}",

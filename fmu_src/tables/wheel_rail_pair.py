@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterable
 from functools import cache
 
 from contact import friction
 from contact.accumulation import MAXIMA, SUMS
 from contact.geometry.wheelset import SAMPLES
+from contact.inputs.options import COMBINE_ANGLE, COMBINE_DISTANCE, FLANGE_BACK, GAUGE, GAUGE_POINT, RADIUS
 from contact.kernels.records import LARGEST_ANGLE, LARGEST_RAIL_ROLL, SLOWEST
-from ..variables import Enumeration, Limits, Table, Variable, output, parameter, signal
+from ..variables import Enumeration, Limits, Table, Variable, output, parameter, signal, taken
 from . import solver
 
 SIDE = Enumeration("Side", (("Left", "the left wheel and rail"), ("Right", "the right wheel and rail")))
@@ -89,8 +89,8 @@ _LIMITS: dict[str, Limits] = {
     **{f"offset.{angle}": {"minimum": -LARGEST_ANGLE, "maximum": LARGEST_ANGLE} for angle in ("roll", "pitch", "yaw")},
     "velocity.x": {"minimum": 0.0, "nominal": 10.0},
 }
-_RADIUS, _SPEED = 0.46, 20.0
-_STARTS = {"velocity.x": _SPEED, "velocity.spin": -_SPEED / _RADIUS}
+_SPEED = 20.0
+_STARTS = {"velocity.x": _SPEED, "velocity.spin": -_SPEED / RADIUS.usual}
 
 #: Outputs of a patch in the order of the record CONTACT: name after `patch[k].`, unit, nominal, description.
 PATCH = (
@@ -150,20 +150,14 @@ def parameters(inclination: float) -> Iterable[Variable]:
     """Yield the parameters, which the FMU `Vehicle` has too. `inclination` is a default, as in `table`."""
     yield parameter("side", "Which wheel and rail; the left side is the mirror image", enumeration=SIDE, start="Right")
     yield parameter("load.kind", "How the load is given", enumeration=LOAD_KIND, start="NormalForce")
-    yield parameter(
-        "wheel.radius", "Nominal radius, at the tape circle", unit="m", start=_RADIUS, minimum=0.05, maximum=2.0
-    )
-    yield parameter(
-        "wheel.flange_back", "Distance between the backs of the flanges", unit="m", start=1.36, minimum=0.1, maximum=3.0
-    )
-    yield parameter("track.gauge", "Track gauge", unit="m", start=1.435, minimum=0.1, maximum=3.0)
+    yield parameter("wheel.radius", "Nominal radius, at the tape circle", unit="m", **taken(RADIUS))
+    yield parameter("wheel.flange_back", "Distance between the backs of the flanges", unit="m", **taken(FLANGE_BACK))
+    yield parameter("track.gauge", "Track gauge", unit="m", **taken(GAUGE))
     yield parameter(
         "track.gauge_point",
         "Depth below the top of the rail at which the gauge is measured",
         unit="m",
-        start=0.014,
-        minimum=0.0,
-        open_minimum=True,
+        **taken(GAUGE_POINT),
         nominal=1e-2,
     )
     yield parameter(
@@ -186,16 +180,14 @@ def parameters(inclination: float) -> Iterable[Variable]:
         "patches.combine_distance",
         "Neighbouring patches closer than this share one plane",
         unit="m",
-        start=8e-3,
-        minimum=0.0,
+        **taken(COMBINE_DISTANCE),
         nominal=1e-2,
     )
     yield parameter(
         "patches.combine_angle",
         "Neighbouring patches whose contact angles differ by less than this share one plane",
         unit="rad",
-        start=math.radians(10.0),
-        minimum=0.0,
+        **taken(COMBINE_ANGLE),
     )
     yield from solver.parameters()
     yield parameter(

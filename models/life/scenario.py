@@ -19,8 +19,9 @@ from contact.geometry import profile
 from contact.geometry.profile import Kind, Profile
 from contact.geometry.surfaces import WheelSurface
 from contact.inputs.material import STEEL, Material
+from contact.inputs.options import N_ELEMENTS, N_STRIPS
 from contact.registry import DEFAULT_NORMAL, DEFAULT_TANGENTIAL, lookup
-from contact.solver import N_ELEMENTS, N_STRIPS, require_resolution
+from contact.solver import require_resolution
 from ..vehicle.declared import VehicleDeclaration
 from ..vehicle.declared import find as find_vehicle
 from ..vehicle.declared import read as read_vehicle
@@ -101,8 +102,8 @@ class Methods:
 
     normal: str = DEFAULT_NORMAL
     tangential: str = DEFAULT_TANGENTIAL
-    strips: int = N_STRIPS
-    elements: int = N_ELEMENTS
+    strips: int = N_STRIPS.usual
+    elements: int = N_ELEMENTS.usual
     pressure_limit: float | None = None
     pace: int = PACE
 

@@ -10,6 +10,7 @@ from contact.errors import ContactError
 from contact.geometry.profile import Profile
 from contact.geometry.surfaces import Flat, Polygon, WheelSurface
 from contact.geometry.surfaces.deviation import Deviation
+from contact.inputs.options import RADIUS
 from .slices import WheelSlices, require_side
 
 
@@ -36,7 +37,7 @@ class FlatWheel:
 
     def __post_init__(self) -> None:
         require_side(self.side)
-        self.deviation(0.460)  # checks the numbers
+        self.deviation(RADIUS.usual)  # checks the numbers
 
     def deviation(self, radius: float) -> Deviation:
         """Return the flat on a wheel with a nominal radius [m]."""
@@ -64,7 +65,7 @@ class PolygonWheel:
 
     def __post_init__(self) -> None:
         require_side(self.side)
-        self.deviation(0.460)
+        self.deviation(RADIUS.usual)
 
     def deviation(self, radius: float) -> Deviation:
         """Return the polygon; it is the same for every radius."""

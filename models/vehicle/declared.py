@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import TypeVar
 
 from contact.errors import ContactError, require_number, suggestion
+from contact.inputs.options import FLANGE_BACK, GAUGE, GAUGE_POINT, RADIUS
 from ..life.declared import build, read_table
 
 #: Folder of the vehicles that are included, one file each.
@@ -220,10 +221,10 @@ class VehicleDeclaration:
 
     name: str
     source: str = ""
-    radius: float = 0.46
-    gauge: float = 1.435
-    gauge_point: float = 0.014
-    flange_back: float = 1.360
+    radius: float = RADIUS.usual
+    gauge: float = GAUGE.usual
+    gauge_point: float = GAUGE_POINT.usual
+    flange_back: float = FLANGE_BACK.usual
     bodies: tuple[Body, ...] = ()
     wheelsets: tuple[Wheelset, ...]
     springs: tuple[Spring, ...] = ()

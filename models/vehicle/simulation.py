@@ -17,6 +17,7 @@ from contact.geometry.profile import Profile
 from contact.geometry.surfaces import SurfacePair, WheelSurface
 from contact.geometry.wheelset import Pair, Pose, Velocity
 from contact.inputs.material import STEEL, Material
+from contact.inputs.options import N_ELEMENTS, N_STRIPS
 from contact.instance import workspace
 from contact.instance.ownership import OwnsArrays, one_thread
 from contact.kernels.enumerations import Height
@@ -24,7 +25,6 @@ from contact.kernels.memory import Ledger
 from contact.kernels.records import GIVEN
 from contact.pair import WheelRailPair
 from contact.registry import DEFAULT_NORMAL, DEFAULT_TANGENTIAL
-from contact.solver import N_ELEMENTS, N_STRIPS
 from .assembly import Assembly, assemble
 from .crew import Crew
 from .declared import VehicleDeclaration
@@ -53,8 +53,8 @@ class ContactOptions:
 
     normal: str = DEFAULT_NORMAL
     tangential: str = DEFAULT_TANGENTIAL
-    n_strips: int = N_STRIPS
-    n_elements: int = N_ELEMENTS
+    n_strips: int = N_STRIPS.usual
+    n_elements: int = N_ELEMENTS.usual
     material: Material = STEEL
     damage: DamageParameters | None = None
     pace: int = 1

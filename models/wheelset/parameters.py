@@ -7,6 +7,7 @@ from dataclasses import dataclass, field, fields
 from contact.errors import ContactError, require_number
 from contact.geometry import profile
 from contact.geometry.profile import Profile
+from contact.inputs.options import FLANGE_BACK, GAUGE, GAUGE_POINT, RADIUS
 
 _NOT_NEGATIVE = ("lateral_stiffness", "yaw_stiffness", "lateral_damping", "yaw_damping")
 _FREE = ("lateral", "yaw", "lateral_velocity", "yaw_rate", "window_start")
@@ -65,10 +66,10 @@ class WheelsetParameters:
     yaw_rate: float = 0.0
     wheel: Profile = field(default_factory=profile.s1002)
     rail: Profile = field(default_factory=profile.rail_60e1)
-    radius: float = 0.46
-    gauge: float = 1.435
-    gauge_point: float = 0.014
-    flange_back: float = 1.360
+    radius: float = RADIUS.usual
+    gauge: float = GAUGE.usual
+    gauge_point: float = GAUGE_POINT.usual
+    flange_back: float = FLANGE_BACK.usual
     window_start: float = -0.02
     window_step: float = 1e-3
     approach: float = 6e-5

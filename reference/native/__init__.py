@@ -14,8 +14,8 @@ import numpy as np
 
 from contact.compile.linking import OF_WINDOWS, WITHOUT_MINGW, compiler, run
 from contact.core import library
+from contact.inputs.options import N_ELEMENTS, N_STRIPS
 from contact.kernels.records import MAX_PATCHES
-from contact.solver import N_ELEMENTS, N_STRIPS
 from fmu_src.catalogue import models, vehicles
 from fmu_src.native import systems
 from fmu_src.native.component import Component
@@ -98,7 +98,7 @@ class Host:
         (folder / "model.h").write_text(source.header(its, self.guid))
         (folder / "roles.h").write_text(roles(its))
         self.program = folder / f"host{program}"
-        elements = MAX_PATCHES * N_STRIPS * N_ELEMENTS
+        elements = MAX_PATCHES * N_STRIPS.usual * N_ELEMENTS.usual
         flags = ["-std=gnu11", "-O1", f"-DELEMENTS={elements}", f"-I{folder}", f"-I{HEADERS}"]
         flags += ["-DCONTACT"] if name == NAME else []
         sources = [HOST / name for name in ("common.c", *code)]

@@ -2,10 +2,10 @@
 
 from contact_case import CREEPAGES, separation
 
+from contact.inputs.options import N_ELEMENTS, N_STRIPS
 from contact.kernels.records import MAX_PATCHES
-from contact.solver import N_ELEMENTS, N_STRIPS
 
-SHAPE = (MAX_PATCHES, N_STRIPS, N_ELEMENTS)
+SHAPE = (MAX_PATCHES, N_STRIPS.usual, N_ELEMENTS.usual)
 
 FIELDS = {
     "field.x": "x",

@@ -16,7 +16,7 @@ from random_cases import random_case
 from thesis_case import THESIS
 
 import contact
-from contact.solver import N_ELEMENTS, N_STRIPS
+from contact.inputs.options import N_ELEMENTS, N_STRIPS
 
 
 @pytest.fixture
@@ -118,7 +118,7 @@ def test_simulates_with_fmpy(native, native_fmi3, kind):
     assert all(np.array_equal(two[name], three[name]) for name in ("time", *names))
     assert three["field.pressure"].shape == (11, *SHAPE)
     np.testing.assert_allclose(np.sum(three["field.pressure"] * three["field.area"], (1, 2, 3)), 80e3, rtol=1e-12)
-    assert three["field.stick"][-1].sum() < three["field.stick"][0].sum() == N_STRIPS * N_ELEMENTS
+    assert three["field.stick"][-1].sum() < three["field.stick"][0].sum() == N_STRIPS.usual * N_ELEMENTS.usual
 
 
 def test_an_array_is_started_with_fmpy(native_fmi3):
@@ -126,7 +126,7 @@ def test_an_array_is_started_with_fmpy(native_fmi3):
     start = {"geometry.g": s.g, "geometry.A": s.A, "geometry.y0": -0.02, "geometry.dy": 0.001, **CREEPAGES}
     start |= {name: THESIS[name] for name in ("method.normal", "method.tangential")}
     result = fmpy.simulate_fmu(str(native_fmi3), stop_time=2e-3, start_values=start, output=["force.x", "geometry.g"])
-    options = {**contact.THESIS, "n_strips": N_STRIPS, "n_elements": N_ELEMENTS}
+    options = {**contact.THESIS, "n_strips": N_STRIPS.usual, "n_elements": N_ELEMENTS.usual}
     assert result["force.x"][-1] == contact.solve(s, contact.Creepage(*CREEPAGES.values()), load=80e3, **options).Fx
     np.testing.assert_array_equal(result["geometry.g"][-1], s.g)
 
@@ -194,7 +194,7 @@ def test_resolution_is_set_only_in_configuration_mode(open_native_fmi3):
     refused(lambda: fmu.update({"resolution.n_strips": 13}), ERROR)
     refused(fmu.fmu.enterConfigurationMode, ERROR)
     fmu.fmu.reset()
-    assert fmu["resolution.n_strips"] == N_STRIPS
+    assert fmu["resolution.n_strips"] == N_STRIPS.usual
 
 
 def test_a_resolution_out_of_range_is_discarded_by_name(open_native_fmi3):

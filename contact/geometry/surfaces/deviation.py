@@ -14,6 +14,7 @@ import numpy as np
 
 from contact.arrays import Array
 from contact.errors import ContactError, require_integer, require_number
+from contact.inputs.options import RADIUS
 
 
 class Deviation(Protocol):
@@ -96,7 +97,7 @@ class Flat:
     """
 
     length: float
-    radius: float = 0.460
+    radius: float = RADIUS.usual
     depth: float | None = None
     shape: str = "haversine"
     angle: float = 0.0

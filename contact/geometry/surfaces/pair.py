@@ -24,6 +24,7 @@ from contact.halfspace.lattice import Lattice
 from contact.halfspace.norm import norm
 from contact.inputs.creepage import Creepage
 from contact.inputs.material import STEEL, Material
+from contact.inputs.options import COMBINE_DISTANCE, FLANGE_BACK, GAUGE, GAUGE_POINT, RADIUS
 from contact.instance import workspace
 from contact.instance.ownership import one_thread, within
 from contact.kernels.enumerations import Height
@@ -140,13 +141,13 @@ class SurfacePair(Posed):
         rail: RailSurface | Profile,
         *,
         side: Side = "right",
-        nominal_radius: float = 0.460,
-        gauge: float = 1.435,
-        flange_back: float = 1.360,
+        nominal_radius: float = RADIUS.usual,
+        gauge: float = GAUGE.usual,
+        flange_back: float = FLANGE_BACK.usual,
         tape: float | None = None,
-        gauge_point: float = 0.014,
+        gauge_point: float = GAUGE_POINT.usual,
         rail_origin: tuple[float, float] | None = None,
-        combine_distance: float = 8e-3,
+        combine_distance: float = COMBINE_DISTANCE.usual,
         reach: float = 0.06,
         tilted: bool = False,
         rows: int = ROWS,
@@ -161,7 +162,7 @@ class SurfacePair(Posed):
                 raise ContactError(
                     f"rail_origin = None: {rail!r} has no gauge; give the place of its origin (y, z) [m]"
                 )
-            rail_origin = place_of_rail(rail, require_number("gauge", gauge, 0.1, 3.0), gauge_point)
+            rail_origin = place_of_rail(rail, GAUGE.require("gauge", gauge), gauge_point)
         y, z = (require_number("rail_origin", at) for at in rail_origin)
         self.rail_origin = y, z
         self.wheel = WheelSurface.constant(wheel) if isinstance(wheel, Profile) else wheel
