@@ -262,10 +262,16 @@ _OFFSET = tuple(
 
 
 def _offset(case: Case) -> WheelOffset:
-    """Return the displacement of a flexible wheel, which CONTACT gives in the axes of the wheelset."""
-    turn = turned(case["ROLL"], case["YAW"])
-    place, rate = (turn @ np.array([case[f"{first}{axis}WHL"] for axis in "XYZ"]) for first in "DV")
+    """Return the displacement of a flexible wheel at its datum on the axle.
+
+    CONTACT gives it in the axes of the wheelset, at the lowest point of the wheel, about which it turns.
+    """
+    turn, own = turned(case["ROLL"], case["YAW"]), turned(case["DROLLW"], case["DYAWW"])
+    place, rate = (np.array([case[f"{first}{axis}WHL"] for axis in "XYZ"]) for first in "DV")
     angles, turning = ([case[f"{first}{name}W"] for name in ("ROLL", "PITCH", "YAW")] for first in "DV")
+    up = np.array([0.0, 0.0, -case["NOMRADW"]])  # from the lowest point to the datum
+    place = turn @ (place + own @ up - up)
+    rate = turn @ (rate + np.cross(turning, own @ up))
     return WheelOffset(*map(float, place), *angles, *map(float, rate), *turning)
 
 

@@ -104,15 +104,25 @@ def test_steps_on_a_layer_yield_and_the_shear_stays(tmp_path):
     assert soft[0].patches[0].values["NPLAST"] > 0
 
 
-def test_a_single_wheel_with_DROLLW_stands_as_one_with_ROLL(tmp_path):
-    zero = ("0. 0. 0. 0. 0. 0.",) * 2
-    rolled = sequence(tmp_path, [("1203000", False, ("0. 0. 0.04 0.02 0. 0.", "1000. 0. 0. 0. 0. -10.0"))])[0]
-    turned = ("0. 0. 0. 0.02 0. 0.", zero[0])
-    flexible = sequence(tmp_path, [("1203000", True, ("0. 0. 0.04 0. 0. 0.", "1000. 0. 0. 0. 0. -10.0", *turned))])[0]
+def test_a_wheel_turned_by_DROLLW_stands_on_its_lowest_point(tmp_path):
+    """A plane tread of a wheel that turns about its lowest point is that of a rolled wheelset whose centre is moved."""
+    roll, R = 0.02, 100.0
+    at = f"0. {R * np.sin(roll):.9f} {0.04 + R * (1.0 - np.cos(roll)):.9f} {roll} 0. 0."
+    rolled = sequence(tmp_path, [("1203000", False, (at, "1000. 0. 0. 0. 0. -10.0"))])[0]
+    turned = ("0. 0. 0.04 0. 0. 0.", "1000. 0. 0. 0. 0. -10.0", f"0. 0. 0. {roll} 0. 0.", REST)
+    flexible = sequence(tmp_path, [("1203000", True, turned)])[0]
     a, b = rolled.patches[0].values, flexible.patches[0].values
-    assert flexible.values["Z_WS"] == pytest.approx(rolled.values["Z_WS"], abs=1e-9)
-    for name in ("PMAX", "DELTCP(TR)", "FN"):
-        assert b[name] == pytest.approx(a[name], rel=1e-6)
+    for name in ("PMAX", "DELTCP(TR)", "FN", "APPROACH", "YCP(R)"):
+        assert b[name] == pytest.approx(a[name], rel=1e-6, abs=1e-9)
+    assert a["CPHI"] == pytest.approx(10.0 * np.sin(roll - a["DELTCP(TR)"]), abs=5e-3)
+    assert b["CPHI"] == pytest.approx(-10.0 * np.sin(b["DELTCP(TR)"]), abs=5e-3)  # it turns with the wheelset
+
+
+def test_rates_of_a_flexible_wheel_are_those_of_its_lowest_point(tmp_path):
+    turned = ("0. 0. 0.04 0. 0. 0.", "1000. 0. 0. 0. 0. -10.0", REST, "0. 1. 0. 0.01 0. 0.002")
+    a = sequence(tmp_path, [("1203000", True, turned)])[0].patches[0].values
+    assert a["CETA"] == pytest.approx(-1e-3, rel=1e-3)
+    assert a["CKSI"] == pytest.approx(0.0, abs=1e-6)
 
 
 def test_a_wheel_on_a_roller_has_the_curvature_and_the_creepage_of_both(tmp_path):
