@@ -72,6 +72,8 @@ class Transient(OwnsArrays):
         Layer between the bodies. Its plastic shear stays with the particles.
     turns : int
         Most turns between pressure and traction of unlike bodies, 1 to 1000. With 1 the traction does not change the pressure.
+    normal : callable
+        Solves the normal problem, with the arguments of `contact.halfspace.norm`; another one may give a pressure.
 
     Attributes
     ----------
@@ -105,6 +107,7 @@ class Transient(OwnsArrays):
         spacing: float | tuple[float, float] | None = None,
         layer: ThirdBody | None = None,
         turns: int = _TURNS,
+        normal: Callable[..., Normal] = norm,
         progress: Callable[[int, float], None] | None = None,
     ) -> None:
         if not isinstance(separation, Separation | Gap):
@@ -120,7 +123,7 @@ class Transient(OwnsArrays):
         self._set_friction(friction)
         self.material = material
         self.speed, self._progress = require_number("speed", speed, 0.0), progress
-        self.layer, self._turns = layer, int(require_number("turns", turns, 1, 1000))
+        self._norm, self.layer, self._turns = normal, layer, int(require_number("turns", turns, 1, 1000))
         division = Division(40, 40, None if spacing is None else require_pair("spacing", spacing))
         grid = separation if isinstance(separation, Gap) else grid_of(separation, load, approach, material, division)
         if grid is None:
@@ -317,8 +320,7 @@ class Transient(OwnsArrays):
         """Return the coefficient of a step [-]; None where it is that of each element."""
         if self._local:
             return None
-        velocity = self.speed * math.hypot(creepage.longitudinal, creepage.lateral)
-        return float(self.friction.coefficient(velocity))
+        return float(self.friction.coefficient(self.speed * math.hypot(creepage.longitudinal, creepage.lateral)))
 
     @one_thread
     def take(self, load: float | None = None, approach: float | None = None, gap: Gap | None = None) -> None:
@@ -356,10 +358,8 @@ class Transient(OwnsArrays):
             found = Normal(np.zeros(grid.h.shape), float(grid.h.min()), 0.0, 0, True)
         else:
             h = grid.h if opening is None else grid.h + opening
-            to: dict[str, Any] = {**self._amount}
-            if opening is not None:
-                to |= {"tolerance": 1e-7, "start": start}
-            found = norm(h, grid.dx, grid.dy, self.material, **to)
+            more: dict[str, Any] = {} if opening is None else {"tolerance": 1e-7, "start": start}
+            found = self._norm(h, grid.dx, grid.dy, self.material, **self._amount, **more)
         if fixed:
             self._normal, self._pressed = found, self._amount
         return found

@@ -19,6 +19,7 @@ from contact.geometry.surfaces import RailSurface, SurfacePair, WheelSurface
 from contact.geometry.wheelset import place_of_rail
 from contact.inp.case import Case
 from contact.inp.grid import material
+from contact.inp.mesh import Outline, Outlines
 from contact.inp.reasons import RefusedError, refuse
 from contact.kernels.records import LARGEST_RAIL_ROLL
 
@@ -58,6 +59,15 @@ def pair(case: Case) -> SurfacePair:
         spacing=(case["DX"], case["DS"]),
         material=material(case),
     )
+
+
+def outlines(case: Case) -> Outlines | None:
+    """Return the outlines of wheel and rail; None for a wheel that is not round, no rail on a roller and on slices."""
+    wheel, rail = body(case, "W"), body(case, "R")
+    if not isinstance(wheel, Profile):
+        return None
+    straight = isinstance(rail, Profile) and not is_roller(case)
+    return Outlines(Outline.of(wheel), Outline.of(_rolled(cast(Profile, rail), case)) if straight else None)
 
 
 def key(case: Case) -> tuple[Any, ...]:

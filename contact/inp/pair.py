@@ -3,26 +3,33 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable, Sequence
 from dataclasses import replace
+from functools import partial
 from typing import Any
 
 import numpy as np
 
-from contact.errors import require_number
+from contact.errors import ContactError, require_number
 from contact.friction import Friction
 from contact.geometry.flexible import WheelOffset
 from contact.geometry.records import Pose, Velocity
 from contact.geometry.shape import Profile
 from contact.geometry.surfaces import SurfacePair, SurfacePatch
-from contact.halfspace import GridSolution
+from contact.given_force import rising_root
+from contact.halfspace import GridSolution, Normal
 from contact.halfspace.lattice import Lattice
-from contact.inp import bodies, fast, single
+from contact.halfspace.parts import norm_of_parts
+from contact.inp import approximate, bodies, fast, lobes, pressed, single
 from contact.inp.case import Case
 from contact.inp.grid import material
-from contact.inp.mesh import Wheel, cornered, flattened, flattened_rows, turned
+from contact.inp.mesh import Outlines, cornered, flattened, flattened_rows, turned
 from contact.inp.reasons import refuse, require_digits
 from contact.inp.results import PatchResult, Result
 from contact.inputs.creepage import Creepage
+from contact.instance.ownership import within
+from contact.kernels.enumerations import Height
+from contact.kernels.geometry.settle import DEEPEST
 from contact.kernels.records import LARGEST_ANGLE
 from contact.pair.curved import Elements
 from contact.pair.elastic_rail import ElasticRail
@@ -31,9 +38,12 @@ from contact.pair.sliding import Bodies, Roller
 from contact.pair.solution import Contact, PairSolution, Solved
 from contact.pair.transient import TransientPair
 from contact.pair.wheel_rail import WheelRailPair
+from contact.results import Status
 
 #: Largest roll [rad]; the search misses contacts at larger yaw than is allowed elsewhere.
 _LARGEST_ROLL = 0.3
+#: Search of a height: tolerance over the force, relative error above which the status tells of it, bracket [m], most steps.
+_TOLERANCE, _MISSED, _SHORTEST, _MOST = 3e-5, 1e-3, 1e-10, 40
 _LAWS = {2: ("linear", "FLIN"), 3: ("rational", "FRAT"), 4: ("exponential", "FEXP")}
 
 
@@ -55,6 +65,11 @@ def require_supported(case: Case, by_strips: bool) -> None:
         ("strips", by_strips and case["LAW"] == 6, "L = 6"),
         ("strips", by_strips and case["CURV"] != 0.0, "CURV"),
         ("layer on strips", digits["M"] == 4 and by_strips, "M = 4"),
+        (
+            "simplified theory",
+            digits["M"] in pressed.SIMPLIFIED and not by_strips and digits["T"] in (1, 2),
+            "T = 1, 2",
+        ),
         ("damping", digits["M2"] == 2 and any(case[name] for name in ("CDAMPN", "CDAMPT")), "M2 = 2"),
         ("unlike bodies on strips", by_strips and material(case).coupling != 0.0, "K"),
         ("friction along the profile", case["ROWS"] == 1 and by_strips and _varies(case), "V = 1"),
@@ -73,7 +88,7 @@ class _FilePair(TransientPair):
     """A pair that takes friction, creepages and places of elements as the file and CONTACT give them."""
 
     case: Case
-    wheel: Wheel | None = None  # of revolution
+    outlines: Outlines | None = None  # of a wheel of revolution
     roller: Profile | None = None  # its profile
 
     def take(self, case: Case) -> None:
@@ -117,17 +132,62 @@ class _FilePair(TransientPair):
         return single.law(case.changed(**values), inner.size, False)
 
     def _solved(self, patch: SurfacePatch, at: Instant) -> Solved:
-        if self.wheel is not None and not self.conformal:
-            patch = flattened(patch, self.pair, self._pose, self.wheel, self.case["DS"])
+        if self.outlines is not None and not self.conformal:
+            patch = flattened(patch, self.pair, self._pose, self.outlines, self.case["DS"])
         if self.roller is not None and not self.conformal:
             patch = cornered(patch, self.pair.side, self.roller)
-        return super()._solved(patch, at)
+        if not (self.case.digits["M"] in pressed.SIMPLIFIED and self.case.digits["T"]):
+            return super()._solved(patch, at)
+        creepage, speed = self._rolling(patch, at)
+        case, gap, bodies = _at_patch(self.case, patch.angle, self.pair.side), patch.gap, self.pair.material
+        normal = self._normal(patch)(gap.h, gap.dx, gap.dy, bodies, approach=patch.approach)
+        return Solved(patch, pressed.on_patch(case, gap, normal, creepage, speed, bodies), patch.frame.axes)
+
+    def _normal(self, patch: SurfacePatch) -> Callable[..., Normal]:
+        """Return what solves the normal problem of a patch: B = 5, 6, or lobes that act on each other in shares."""
+        kind = self.case.digits["B"]
+        if kind in (5, 6):
+            return partial(approximate.normal, kind, patch.gap)
+        parts = lobes.parts(patch.gap, patch.approach, self.case["D_COMB"], self.case["D_SEP"])
+        return super()._normal(patch) if parts is None else partial(norm_of_parts, parts=parts)
+
+    def _solution(self, patches: Sequence[SurfacePatch], at: Instant) -> PairSolution:
+        """Return the solution of patches as CONTACT separates them: beyond D_SEP each counts for itself, and fully."""
+        limit = self.case["D_SEP"]
+        kept = [p for p in patches if p.share == 1.0 or not lobes.reaches_over(p.gap, p.approach, limit)]
+        return super()._solution([replace(p, share=1.0) for p in kept], at)
+
+    def _under(self, vertical: float, at: Instant) -> PairSolution:
+        """Return the solution under a vertical force, from whole solutions at heights, of which few are needed.
+
+        F^(2/3) is nearly linear in the depth (Hertz). The force of KPEC, and that of lobes at the limits of their distance,
+        jumps; then the height is the best of those that were tried.
+        """
+        target = vertical ** (2.0 / 3.0)
+        tried: list[tuple[float, float]] = []
+        found: PairSolution | None = None
+
+        def residual(depth: float) -> float:
+            nonlocal found
+            found = self._solution(within(self.pair.found)(Height.PENETRATION, depth), at)
+            tried.append((abs(found.Q - vertical), depth))
+            return 0.0 if tried[-1][0] <= _TOLERANCE * vertical else max(found.Q, 0.0) ** (2.0 / 3.0) - target
+
+        start = self._depth or min(1e-4 * (vertical / 1e5) ** (2.0 / 3.0), 0.5 * DEEPEST)
+        root = rising_root(residual, start, target / start, (0.0, DEEPEST), shortest=_SHORTEST, most=_MOST)
+        best = min(tried)
+        if best != tried[-1]:
+            residual(best[1])
+        self._depth = best[1]
+        if found is None or root.beyond:
+            raise ContactError(f"FZ = {vertical:g}: no height was found at which the wheel carries it on this rail")
+        return replace(found, status=Status.NOT_CONVERGED) if best[0] > _MISSED * vertical else found
 
     def _true(self, patch: SurfacePatch) -> Elements:
         rows = super()._true(patch)
-        if self.wheel is None or not self.conformal:
+        if self.outlines is None or not self.conformal:
             return rows
-        return flattened_rows(rows, patch, self.pair, self._pose, self.wheel, self.case["DS"])
+        return flattened_rows(rows, patch, self.pair, self._pose, self.outlines, self.case["DS"])
 
     def _pull(self, found: PairSolution) -> float:
         return float(turned(self.case["ROLL"], self.case["YAW"])[:, 0] @ np.asarray(found.force))
@@ -244,8 +304,7 @@ class PairRunner:
                 self._pair = WheelRailPair(made, material=made.material)
             else:
                 self._pair = _FilePair(made)
-                profile = bodies.body(case, "W")
-                self._pair.wheel = Wheel.of(profile, case["NOMRADW"]) if isinstance(profile, Profile) else None
+                self._pair.outlines = bodies.outlines(case)
                 if bodies.is_roller(case):
                     self._pair.roller = bodies.roller(case)
                 if isinstance(last, _FilePair) and last.pair.division.spacing == made.division.spacing:

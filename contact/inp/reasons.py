@@ -8,11 +8,9 @@ from contact.inp.case import Case
 #: What a case needs and this package does not have.
 REASONS: dict[str, str] = {
     "viscoelastic": "M = 1: viscoelastic bodies",
-    "simplified theory": "M = 2, 5, 6, 7, or M = 3 beyond plain FASTSIM: variants of FASTSIM and FaStrip on the grid",
-    "simplified bodies": "M = 3 without the pressure of a Hertz contact",
+    "simplified theory": "M = 6, 7, or M = 2, 3, 5 beyond steady rolling under given creepages",
     "thin sheet": "B = 1: a thin sheet on the half space",
-    "given pressure": "B = 2 to 6 of module 3, but for B = 2, 3 with M = 3",
-    "fast pressure": "B = 5, 6 of module 1 with friction on the grid",
+    "given pressure": "B = 4: SDEC",
     "bilinear": "C = 3: elements of bilinear traction",
     "angle": "C = 4: influence numbers with the angle of the surface",
     "numbers from a file": "C = 9: influence numbers from a file",
@@ -38,8 +36,8 @@ REASONS: dict[str, str] = {
 #: Digits that are refused wherever they occur, by module, letter and value. C, D and L are those in force.
 REFUSED: dict[int, dict[str, dict[int, str]]] = {
     3: {
-        "B": {1: "thin sheet", 4: "given pressure", 5: "given pressure", 6: "given pressure"},
-        "M": {1: "viscoelastic", 2: "simplified theory"} | dict.fromkeys((5, 6, 7), "simplified theory"),
+        "B": {1: "thin sheet", 4: "given pressure"},
+        "M": {1: "viscoelastic", 6: "simplified theory", 7: "simplified theory"},
         "C3": {3: "bilinear", 4: "angle", 9: "numbers from a file"},
     },
     1: {
@@ -52,8 +50,7 @@ REFUSED: dict[int, dict[str, dict[int, str]]] = {
 REFUSED_ON_GRID: dict[int, dict[str, dict[int, str]]] = {
     3: {},
     1: {
-        "B": {5: "fast pressure", 6: "fast pressure"},
-        "M": {3: "simplified bodies"} | dict.fromkeys((2, 5, 6, 7), "simplified theory"),
+        "M": {6: "simplified theory", 7: "simplified theory"},
     },
 }
 _IN_FORCE = {"C3": "INFLUENCE", "L": "LAW", "D": "SEARCH"}

@@ -10,11 +10,11 @@ import numpy as np
 
 from contact.arrays import Array
 from contact.damage.temperature import flash_temperature
-from contact.halfspace import GridSolution, LocalLaw, Transient, norm
+from contact.halfspace import GridSolution, LocalLaw, Normal, Transient, norm
 from contact.halfspace.influence import Influence
 from contact.halfspace.local_law import Warmth
 from contact.halfspace.third_body import ThirdBody
-from contact.inp import simplified
+from contact.inp import pressed
 from contact.inp.case import Case
 from contact.inp.grid import Bed, bed, direction, material
 from contact.inp.reasons import refuse, require_digits
@@ -34,12 +34,10 @@ def require_supported(case: Case, fast: bool = False) -> None:
     require_digits(case, fast)
     digits = case.digits
     for reason, wrong, what in (
-        ("given pressure", digits["B"] in (2, 3) and digits["M"] != 3, f"B = {digits['B']} with M = {digits['M']}"),
-        ("simplified bodies", digits["M"] == 3 and digits["B"] not in (2, 3) and not fast, f"B = {digits['B']}"),
         (
             "rigid slip of each element",
             (fast and digits["E"] != 0)
-            or (digits["M"] == 3 and digits["E"] != 0)
+            or (digits["M"] in pressed.SIMPLIFIED and digits["E"] != 0)
             or (digits["E"] in (2, 3) and digits["T"] == 2),
             f"E = {digits['E']}",
         ),
@@ -115,6 +113,7 @@ class Single:
         self._before: Any = None
         self._key: Any = None
         self._backwards = False
+        self._now: Any = None
 
     def solve(self, case: Case) -> Result:
         """Return the result of the next case."""
@@ -128,12 +127,22 @@ class Single:
             )
         bodies = material(case)
         ground, backwards = bed(case, bodies), direction(case)
-        if case.digits["M"] == 3:
+        if case.digits["M"] in pressed.SIMPLIFIED:
             self._contact = None
-            return simplified.solve(case, ground, bodies, backwards)
+            return pressed.solve(case, ground, bodies, backwards)
+        self._now = case, ground, backwards
         contact = self._prepared(case, ground, bodies, backwards)
         solution = self._step(case, contact, ground, bodies, backwards)
         return _result(case, contact, ground, solution, -1.0 if backwards else 1.0, self._fields)
+
+    def _press(self, h: Array, dx: float, dy: float, bodies: Material, **to: Any) -> Normal:
+        """Return the normal solution of the case in work, by the half space or with the pressure that it gives."""
+        case, ground, backwards = self._now
+        if case.digits["B"] == 0:
+            return norm(h, dx, dy, bodies, **to)
+        found = pressed.normal(case, ground, bodies)
+        turn = slice(None, None, -1 if backwards else 1)
+        return replace(found, p=np.pad(found.p, 1)[turn, turn])
 
     def _prepared(self, case: Case, ground: Bed, bodies: Material, backwards: bool) -> Transient:
         """Return the contact with the state of the last case, or a fresh one."""
@@ -163,6 +172,7 @@ class Single:
             "speed": speed,
             "layer": between,
             "turns": turns,
+            "normal": self._press,
         }
         if amount.get("load", 1.0) <= 0.0:
             raise refuse(case, "input", f"FN = {case['FN']:g} in a first step")
@@ -222,7 +232,7 @@ def _result(case: Case, contact: Transient, ground: Bed, solution: GridSolution,
     s, digits = solution, case.digits
     inside = s.p > 0.0
     values = {
-        "FN": s.N,
+        "FN": case["FN"] if digits["B"] in (2, 3) and digits["N"] == 1 else s.N,
         "FX": -sign * s.Fx,
         "FY": -sign * s.Fy,
         "MZ": -s.Mz,

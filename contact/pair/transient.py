@@ -8,6 +8,7 @@ elements, whether it has grown, moved, split or joined another one.
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from typing import Any, NamedTuple
 
@@ -19,7 +20,7 @@ from contact.friction import Friction
 from contact.geometry.flexible import WheelOffset
 from contact.geometry.records import Irregularity, Pose, Velocity
 from contact.geometry.surfaces import SurfacePair, SurfacePatch
-from contact.halfspace import LocalLaw, Transient
+from contact.halfspace import LocalLaw, Normal, Transient, norm
 from contact.halfspace.lattice import Lattice
 from contact.halfspace.state import State
 from contact.halfspace.third_body import ThirdBody
@@ -258,6 +259,10 @@ class TransientPair(HalfspacePair):
         self._now = []
         return super()._solution(patches, at)
 
+    def _normal(self, patch: SurfacePatch) -> Callable[..., Normal]:
+        """Return what solves the normal problem of a patch."""
+        return norm
+
     def _law(self, patch: SurfacePatch, at: Instant, rows: Elements | None) -> Any:
         """Return the friction of a patch, and of its rows if they lie on the true surfaces."""
         return at.friction
@@ -280,6 +285,7 @@ class TransientPair(HalfspacePair):
             speed=speed,
             layer=self.layer,
             turns=self.turns,
+            normal=self._normal(patch),
         )
         u = at.station + float(patch.frame.origin[0]) + float(self._moved[0])
         s = float(np.interp(patch.on_rail[0], *self._profile(at.station)))

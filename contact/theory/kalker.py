@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from contact.errors import require_number
 from contact.kernels.kalker import LOG_ASPECT_MAX, N_TABLE, coefficients, fill_table
 
-__all__ = ["coefficients", "constant_table", "published", "table"]
+__all__ = ["coefficients", "constant_table", "piecewise", "published", "table"]
 
 # Rows: a/b = 0.1 … 1, then b/a = 0.9 … 0.1. Columns: C11, C22, C23, C33, each at nu = 0, 1/4, 1/2. The published numbers
 # agree with a boundary-element solution in full adhesion to 1.5 % (theory.md 1.2).
@@ -79,6 +79,25 @@ def _monotone_slopes(x: NDArray[np.float64], f: NDArray[np.float64]) -> NDArray[
     safe = np.where(product > 0.0, product, 1.0)
     inner = np.where(product > 0.0, (w1 + w2) * safe / np.where(product > 0.0, w1 * d[1:] + w2 * d[:-1], 1.0), 0.0)
     return np.concatenate([d[:1], inner, d[-1:]])
+
+
+def piecewise(poisson_ratio: float, aspect: float) -> tuple[float, float, float]:
+    """Return C11, C22, C23 as CONTACT reads Kalker's table for its simplified theory.
+
+    They are linear in the smaller of a/b and b/a between the rows, and 1/C is a parabola in Poisson's ratio. Below a ratio of
+    .101 they are the asymptotes, with a jump of some per cent. Use `coefficients` for anything smooth.
+    """
+    nu, g = require_number("poisson_ratio", poisson_ratio, 0.0, 0.5), min(aspect, 1.0 / aspect)
+    if g < 0.101:
+        return _short_asymptote(g, nu)[:3] if aspect <= 1.0 else _long_asymptote(g, nu)
+    rows = np.array(_PUBLISHED.split(), dtype=np.float64).reshape(19, 4, 3)[:, :3]
+    rows = rows[:10] if aspect <= 1.0 else rows[:8:-1]
+    k = min(int(10.0 * g - 0.005), 9) - 1
+    t = 10.0 * g - (k + 1)
+    c = (1.0 - t) * rows[k] + t * rows[k + 1]
+    weights = np.array([8.0 * (nu - 0.25) * (nu - 0.5), -16.0 * nu * (nu - 0.5), 8.0 * nu * (nu - 0.25)])
+    c11, c22, c23 = (1.0 / (weights / c).sum(axis=1)).tolist()
+    return c11, c22, c23
 
 
 @functools.cache

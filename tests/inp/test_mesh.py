@@ -7,7 +7,7 @@ from contact.geometry.records import Pose
 from contact.geometry.shape import Profile
 from contact.geometry.surfaces import SurfacePair
 from contact.halfspace.lattice import Lattice
-from contact.inp.mesh import Wheel, flattened
+from contact.inp.mesh import Outline, Outlines, flattened
 
 RADIUS, STEP = 0.05, 4e-4  # of the hollow wheel, and of the elements [m]
 
@@ -23,7 +23,7 @@ def lowered(yaw, step=STEP, side="right"):
     pair.division = Lattice.centred(pair.division.spacing)
     pose = Pose(yaw=yaw)
     (patch,) = pair.contacts(pose, penetration=1e-4)
-    mesh = flattened(patch, pair, pose, Wheel.of(hollow, pair.nominal_radius), step)
+    mesh = flattened(patch, pair, pose, Outlines(Outline.of(hollow), Outline.of(round_)), step)
     return (patch.gap.h - patch.approach) - (mesh.gap.h - mesh.approach)
 
 

@@ -104,7 +104,7 @@ def test_cases_on_several_processes_are_those_of_one(tmp_path):
     ("old", "new", "reason"),
     [
         ("  022020     L-D-C-M-Z-E", "  023020", "bilinear"),
-        ("  203100     P", "  253100     P", "given pressure"),
+        ("  203100     P", "  243100     P", "given pressure"),
         ("   0.0     0.5   30d3 ", "   45d   0.5   30d3 ", "direction"),
         ("  20 12 ", "  1900 1900 ", "memory"),
         ("   1  1\n", "   1  1\n", ""),
