@@ -6,13 +6,13 @@ from functools import partial
 import numpy as np
 import pytest
 
+from contact import inp
 from contact.halfspace import Gap, norm
 from contact.halfspace.parts import norm_of_parts
 from contact.inp import approximate, lobes
 from contact.inputs.material import STEEL
 from contact.theory.hertz import hertz
 from contact.theory.kalker import piecewise
-from tests.inp.test_running import run
 
 #: An ellipse of 8 × 4 mm under spin and lateral creepage (CONTACT 25.1, fastsim cases 2 to 4).
 SPIN = """\
@@ -34,7 +34,9 @@ SPIN = """\
 
 def spin(tmp_path, B, M, K="1.000 1.000"):
     text = SPIN.replace("0223{M}0", "022" + str(M) + "20").format(B=B, K=K)
-    return run(tmp_path, text)[0].patches[0].values
+    path = tmp_path / "case.inp"
+    path.write_text(text)
+    return inp.solve(inp.read(path))[0].patches[0].values
 
 
 @pytest.mark.parametrize(
