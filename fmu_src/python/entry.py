@@ -1,4 +1,4 @@
-"""The library that a host loads of an FMU for hosts with Python: `c/entry.c`, for each system that pythonfmu serves.
+"""The library that a host loads of an FMU for hosts with Python: `c/`, for each system that pythonfmu serves.
 
 A wheel has them beside its other libraries. A checkout builds them by zig, in two seconds, and keeps them.
 """
@@ -55,7 +55,7 @@ def build(wanted: list[str], made: Path) -> None:
         folder = made / system
         folder.mkdir(parents=True, exist_ok=True)
         objects = []
-        for source in (_HERE / "entry.c", *((OF_WINDOWS,) if system == "win64" else ())):
+        for source in (*sorted(_HERE.glob("*.c")), *((OF_WINDOWS,) if system == "win64" else ())):
             objects.append(f"{source.stem}.o")
             run(*compiler(system), *flags, *include, "-c", source, "-o", folder / objects[-1])
         options = WITHOUT_MINGW if system == "win64" else ("-Wl,-z,defs", "-ldl")

@@ -157,7 +157,7 @@ def compile_program(command: Sequence[str], platform: str, sources: Sequence[Pat
         run(*command, *sources, "-o", program, "-ldl", "-lpthread", "-lm")
         return
     made = []
-    for path in (*sources, HOST / "windows.c", OF_WINDOWS):
+    for path in (*sources, HOST / "start_of_windows.c", OF_WINDOWS):
         made.append(program.parent / f"{path.stem}.o")
         run(*command, "-c", path, "-o", made[-1])
     run(*command, *made, "-o", program, *WITHOUT_MINGW, "-lapi-ms-win-crt-time-l1-1-0", "-Wl,--entry,mainCRTStartup")

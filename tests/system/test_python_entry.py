@@ -129,7 +129,7 @@ def location(request, script, tmp_path_factory):
         request.getfixturevalue("wine")
     folder, host = tmp_path_factory.mktemp("fake"), script(platform)
     end = ".so" if platform == "linux64" else ".dll"
-    functions = re.findall(r"DO\((\w+)\)", (Path(entry.__file__).parent / "c" / "entry.c").read_text())
+    functions = re.findall(r"DO\((\w+)\)", (Path(entry.__file__).parent / "c" / "entry.h").read_text())
     (folder / "fake.c").write_text(FAKE + "".join(f"NOT({name})\n" for name in set(functions) - {"Instantiate"}))
     options = ["-ldl"] if platform == "linux64" else WITHOUT_MINGW
     sources = [folder / "fake.c", *([C_OF_WINDOWS] if platform == "win64" else [])]

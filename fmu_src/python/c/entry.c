@@ -7,41 +7,17 @@
  * - It tells the host what Python said: a call returns the worst status that was logged in it, and the messages go to the
  *   host's logger by the rules of the native FMUs. An instance that logged an error while it was made is not returned. */
 #ifndef _WIN32
-#define _GNU_SOURCE /* dladdr */
-#include <dlfcn.h>
-#include <fcntl.h>
 #include <unistd.h>
 #endif
 #include <stdarg.h>
-#include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "fmi2Functions.h"
+#include "entry.h"
 #include "location.h"
 
 enum { LOG_WARNING = 1, LOG_DISCARD = 2, LOG_ERROR = 4 };
-
-/* The functions of pythonfmu's library. */
-#define FUNCTIONS(DO) \
-    DO(Instantiate) DO(FreeInstance) DO(SetupExperiment) DO(EnterInitializationMode) DO(ExitInitializationMode) \
-    DO(Terminate) DO(Reset) DO(GetReal) DO(GetInteger) DO(GetBoolean) DO(GetString) DO(SetReal) DO(SetInteger) \
-    DO(SetBoolean) DO(SetString) DO(GetFMUstate) DO(SetFMUstate) DO(FreeFMUstate) DO(SerializedFMUstateSize) \
-    DO(SerializeFMUstate) DO(DeSerializeFMUstate) DO(DoStep) DO(GetRealStatus)
-#define MEMBER(name) fmi2##name##TYPE *name;
-
-typedef struct {
-    FUNCTIONS(MEMBER)
-    fmi2Component slave;
-    fmi2CallbackFunctions callbacks; /* of pythonfmu, which keeps a pointer to them */
-    fmi2CallbackLogger logger;       /* of the host, which may free its structure */
-    fmi2ComponentEnvironment environment;
-    int categories;
-    fmi2Status worst; /* that was logged in the present call */
-    int folder;       /* descriptor of the resources, or -1 */
-    char name[256];   /* a longer name is cut */
-} Instance;
 
 static const struct {
     int category;
@@ -67,7 +43,7 @@ static fmi2Status tell(Instance *instance, fmi2Status status, const char *text)
     return status;
 }
 
-static fmi2Status report(Instance *instance, fmi2Status status, const char *format, ...)
+fmi2Status report(Instance *instance, fmi2Status status, const char *format, ...)
 {
     char text[1024];
     va_list arguments;
@@ -82,131 +58,6 @@ static void take(fmi2ComponentEnvironment environment, fmi2String name, fmi2Stat
 {
     (void)name, (void)category;
     tell(environment, status, text ? text : "");
-}
-
-/* ---------------------------------------------------------------- the system */
-
-#ifdef _WIN32
-enum { LONGEST = 4096, OF_ADDRESS = 4 | 2 /* without a new reference */, BESIDE_IT = 8 };
-__declspec(dllimport) int __stdcall GetModuleHandleExW(unsigned long flags, const wchar_t *address, void **module);
-__declspec(dllimport) unsigned long __stdcall GetModuleFileNameW(void *module, wchar_t *path, unsigned long room);
-__declspec(dllimport) void *__stdcall LoadLibraryExW(const wchar_t *path, void *file, unsigned long flags);
-__declspec(dllimport) void *__stdcall GetProcAddress(void *module, const char *name);
-__declspec(dllimport) int __stdcall FreeLibrary(void *module);
-__declspec(dllimport) unsigned long __stdcall GetLastError(void);
-__declspec(dllimport) unsigned long __stdcall GetShortPathNameW(const wchar_t *path, wchar_t *shorter, unsigned long room);
-
-static void *loaded; /* pythonfmu's library */
-
-/* Release pythonfmu's library with this one, so that the host can delete the file. At the end of a process there is no need. */
-int __stdcall _DllMainCRTStartup(void *library, unsigned long reason, void *at_the_end)
-{
-    (void)library;
-    if (reason == 0 && !at_the_end && loaded) FreeLibrary(loaded);
-    return 1;
-}
-
-static void *open_library(Instance *instance)
-{
-    static const wchar_t name[] = L"pythonfmu-export.dll";
-    wchar_t path[LONGEST];
-    void *own = NULL, *found = NULL;
-    unsigned long n = 0;
-    if (GetModuleHandleExW(OF_ADDRESS, (const wchar_t *)(void *)&open_library, &own)) n = GetModuleFileNameW(own, path, LONGEST);
-    while (n > 0 && path[n - 1] != L'\\' && path[n - 1] != L'/') n--;
-    if (n > 0 && n + sizeof name / sizeof *name < LONGEST) {
-        wmemcpy(path + n, name, sizeof name / sizeof *name);
-        found = LoadLibraryExW(path, NULL, BESIDE_IT);
-    }
-    if (!found)
-        report(instance, fmi2Error,
-               "pythonfmu-export.dll, beside this FMU's library, cannot be loaded (error %lu of Windows): this FMU needs Python with "
-               "the package wheelrail-contact, and python3.dll on PATH", GetLastError());
-    else if (!loaded)
-        loaded = found;
-    else
-        FreeLibrary(found); /* there is one reference for all instances */
-    return found;
-}
-
-static void *find(void *library, const char *name) { return GetProcAddress(library, name); }
-#else
-static void *open_library(Instance *instance)
-{
-    static const char name[] = "pythonfmu-export.so";
-    Dl_info own;
-    void *found = NULL;
-    const char *end = dladdr((void *)&fmi2Instantiate, &own) && own.dli_fname ? strrchr(own.dli_fname, '/') : NULL;
-    const size_t n = end ? (size_t)(end - own.dli_fname) + 1 : 0;
-    char *path = malloc(n + sizeof name);
-    if (path) {
-        if (n) memcpy(path, own.dli_fname, n);
-        memcpy(path + n, name, sizeof name);
-        found = dlopen(path, RTLD_NOW | RTLD_LOCAL); /* now: a function that is missing later would end the process */
-    }
-    free(path);
-    if (!found) {
-        const char *why = dlerror();
-        report(instance, fmi2Error,
-               "this FMU needs Python with the package wheelrail-contact in the process of its host; a host that is no Python must "
-               "preload it (LD_PRELOAD=libpython3.so): %s", why ? why : "out of memory");
-    }
-    return found;
-}
-
-static void *find(void *library, const char *name) { return dlsym(library, name); }
-#endif
-
-/* Whether pythonfmu takes the path as it is. It decodes %20, and Python decodes names by the locale of the host. */
-static bool is_plain(const char *path)
-{
-    for (; *path; path++)
-        if (*path < ' ' || *path > '~' || *path == '%') return false;
-    return true;
-}
-
-/* Return a URI of the folder that pythonfmu understands, or report why there is none and return NULL. */
-static char *location_for_python(Instance *instance, const char *folder)
-{
-#ifdef _WIN32
-    static const char prefix[] = "file:///";
-#else
-    static const char prefix[] = "file://";
-#endif
-    const size_t length = strlen(folder);
-    char *made = malloc(sizeof prefix + length + 64); /* 64: of the other name on Linux; on Windows the other one is shorter */
-    if (!made) {
-        report(instance, fmi2Error, "out of memory");
-        return NULL;
-    }
-    strcpy(made, prefix);
-    if (is_plain(folder)) return strcat(made, folder);
-#ifdef _WIN32
-    wchar_t path[LONGEST], other[LONGEST];
-    if (MultiByteToWideChar(UTF_8, 0, folder, -1, path, LONGEST) > 0) {
-        const unsigned long n = GetShortPathNameW(path, other, LONGEST);
-        bool plain = n > 0 && n < LONGEST && n <= length;
-        for (unsigned long k = 0; plain && k < n; k++) {
-            plain = other[k] >= L' ' && other[k] <= L'~' && other[k] != L'%';
-            made[sizeof prefix - 1 + k] = (char)other[k];
-        }
-        made[sizeof prefix - 1 + (plain ? n : 0)] = '\0';
-        if (plain) return made;
-    }
-    report(instance, fmi2Error,
-           "the FMU lies in %s, whose name Python cannot get here: Windows has no short name for it. Unzip it in a folder whose "
-           "path has only letters A to Z, digits and blanks", folder);
-#else
-    instance->folder = open(folder, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-    if (instance->folder >= 0) {
-        char test[64];
-        snprintf(test, sizeof test, "/proc/self/fd/%d", instance->folder);
-        if (access(test, R_OK) == 0) return strcat(made, test);
-    }
-    report(instance, fmi2Error, "the FMU lies in %s, whose name Python cannot get here: /proc is not there", folder);
-#endif
-    free(made);
-    return NULL;
 }
 
 /* ---------------------------------------------------------------- from instantiate to free */
