@@ -87,6 +87,47 @@ def filtered(y: Array, z: Array, wavelength: float) -> tuple[Array, Array, Array
     return splines[0](u), splines[1](u), np.unwrap(np.arctan2(dz, dy))
 
 
+def penalised(y: Array, z: Array, penalty: float) -> tuple[Array, Array, Array]:
+    """Return points and tangents of the cubic smoothing spline of Reinsch (1967), as CONTACT has it.
+
+    It minimises Σ (distance)² + penalty ∫ (second derivative)² ds for y and z over the chord length s, so it smooths more
+    where the points are further apart; `filtered` does not.
+
+    Parameters
+    ----------
+    y, z : ndarray, shape (n,), n >= 5
+        Measured points [m].
+    penalty : float
+        [m³], at least 0.
+
+    Returns
+    -------
+    y, z, angle : ndarray, shape (n,)
+        The spline at the points' chord lengths [m], and the angle of its tangent [rad].
+
+    Raises
+    ------
+    ContactError
+        If the penalty is negative, or there are fewer than five points.
+    ImportError
+        If scipy is not installed.
+    """
+    require_number("penalty", penalty, 0.0)
+    if y.size < 5:
+        raise ContactError(f"penalty = {penalty:g}: {y.size} points are too few to smooth; at least 5 are needed")
+    try:
+        from scipy.interpolate import make_smoothing_spline
+    except ImportError:
+        raise ImportError("smoothing needs scipy: pip install 'wheelrail-contact[profiles]'") from None
+    s = _chords(y, z)
+    # In units of the mean spacing, because the solver of scipy looks at absolute numbers.
+    unit = float(s[-1]) / (y.size - 1)
+    u = s / unit
+    splines = [make_smoothing_spline(u, values, lam=penalty / unit**3) for values in (y, z)]
+    dy, dz = (spline.derivative()(u) for spline in splines)
+    return splines[0](u), splines[1](u), np.unwrap(np.arctan2(dz, dy))
+
+
 def _chords(y: Array, z: Array) -> Array:
     """Return the length of the chords up to each point [m]."""
     return np.concatenate(([0.0], np.cumsum(np.hypot(np.diff(y), np.diff(z)))))

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from dataclasses import replace
 from pathlib import Path
 from typing import Any, cast
@@ -14,9 +13,9 @@ from contact.errors import ContactError, ProfileWarning, warn
 from contact.geometry import formats, placing
 from contact.geometry.records import Irregularity
 from contact.geometry.shape import Profile
-from contact.geometry.smoothing import filtered
+from contact.geometry.smoothing import filtered, penalised
 from contact.geometry.surfaces import RailSurface, SurfacePair, WheelSurface
-from contact.geometry.wheelset import place_of_rail
+from contact.geometry.wheelset import TAPE_FROM_FLANGE_BACK, Pair, place_of_rail
 from contact.inp.case import Case
 from contact.inp.grid import material
 from contact.inp.mesh import Outline, Outlines
@@ -57,6 +56,23 @@ def pair(case: Case) -> SurfacePair:
         rail_origin=origin,
         combine_distance=case["D_SEP"],
         spacing=(case["DX"], case["DS"]),
+        material=material(case),
+    )
+
+
+def profiles(case: Case) -> Pair | None:
+    """Return wheel and rail of a case as profiles, which strips search faster than surfaces; None where they are none."""
+    if case["GAUGHT"] <= 0.0 or has_slices(case) or is_roller(case) or own_roll(case):
+        return None
+    return Pair(
+        cast(Profile, body(case, "W")),
+        cast(Profile, body(case, "R")),
+        side="right" if case.digits["C1"] in (1, 5) else "left",
+        nominal_radius=case["NOMRADW"],
+        gauge=case["GAUGWD"],
+        gauge_point=case["GAUGHT"],
+        flange_back=case["FBDIST"] - 2.0 * case["FBPOS"] - 2.0 * TAPE_FROM_FLANGE_BACK,
+        combine_distance=case["D_SEP"],
         material=material(case),
     )
 
@@ -189,10 +205,9 @@ def _smoothed(case: Case, side: str, points: Array) -> tuple[Array, Array, Array
     kind = case.get(f"{side}ISMOOTH") or 0
     if kind == 2:
         raise refuse(case, "smoothing", "ISMOOTH = 2")
-    length = amount
     if kind == 0:
-        mean = float(np.hypot(np.diff(y), np.diff(z)).mean()) * 1e3
-        length = 2.0 * math.pi * (mean * amount) ** 0.25
+        return penalised(y, z, 1e-9 * amount)
+    length = amount
     length *= 1e-3
     if length < _SHORTEST:
         return y, z, None

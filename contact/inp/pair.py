@@ -15,7 +15,7 @@ from contact.friction import Friction
 from contact.geometry.flexible import WheelOffset
 from contact.geometry.records import Pose, Velocity
 from contact.geometry.shape import Profile
-from contact.geometry.surfaces import SurfacePair, SurfacePatch
+from contact.geometry.surfaces import SurfacePatch
 from contact.given_force import rising_root
 from contact.halfspace import GridSolution, Normal
 from contact.halfspace.lattice import Lattice
@@ -246,11 +246,9 @@ class PairRunner:
         velocity = Velocity(forward, case["VY"], case["VZ"], case["VROLL"], case["VYAW"], spin)
         if digits["T"] != 1 and not forward > 0.0:
             raise refuse(case, "input", f"{'RPITCH' if roller else 'VS'} gives {forward:g} m/s; allowed: positive")
-        given: dict[str, Any] = {
-            "station": case["X_WS" if roller else "S_WS"],
-            "rotation": case["PITCH"],
-            "irregularity": bodies.irregularity(case),
-        }
+        given: dict[str, Any] = {"irregularity": bodies.irregularity(case)}
+        if not self._fast or bodies.has_slices(case):
+            given |= {"station": case["X_WS" if roller else "S_WS"], "rotation": case["PITCH"]}
         if any(case.get(name) for name in _OFFSET):
             given["offset"] = _offset(case)
         if digits["N"] == 1:
@@ -298,11 +296,12 @@ class PairRunner:
     def _prepared(self, case: Case) -> _FilePair | WheelRailPair:
         key = bodies.key(case)
         if self._pair is None or key != self._key:
-            made: SurfacePair = bodies.pair(case)
             last = self._pair
             if self._fast:
-                self._pair = WheelRailPair(made, material=made.material)
+                profiles = bodies.profiles(case)
+                self._pair = WheelRailPair(bodies.pair(case) if profiles is None else profiles, material=material(case))
             else:
+                made = bodies.pair(case)
                 self._pair = _FilePair(made)
                 self._pair.outlines = bodies.outlines(case)
                 if bodies.is_roller(case):
