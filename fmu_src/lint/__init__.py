@@ -1,4 +1,4 @@
-"""Check FMUs for rules that common validators do not check: ``python -m contact_fmu.lint FILE.fmu …``
+"""Check FMUs by fmpy, by the schemas of FMI and by rules that these do not have: ``python -m contact_fmu.lint FILE.fmu …``
 
 The rules for descriptions are those of FMI 2.0.5, also applied to FMI 3.0 where it has them. Clause numbers refer to FMI 2.0.5.
 Each rule is a function that takes the root of a modelDescription.xml and yields findings. Its docstring states the rule and is
@@ -25,6 +25,18 @@ def check(description: str) -> list[str]:
     return [f"{rule.__doc__} {finding}" for rule in RULES for finding in rule(root)]
 
 
+def of_fmpy(path: Path) -> list[str]:
+    """Return what fmpy and the schema find in the description of an FMU, a file or a folder."""
+    from fmpy.model_description import read_model_description
+    from fmpy.validation import validate_model_description
+
+    try:
+        found = read_model_description(str(path), validate_variable_names=True, validate_model_structure=True)
+    except Exception as error:  # noqa: BLE001 - fmpy raises no narrower one
+        return [str(error)]
+    return list(map(str, validate_model_description(found)))
+
+
 def check_file(path: Path) -> list[str]:
     """Return the findings in an FMU file."""
     with ZipFile(path) as archive:
@@ -32,9 +44,11 @@ def check_file(path: Path) -> list[str]:
     if "modelDescription.xml" not in content:
         return ["There is a modelDescription.xml: it is missing"]
     text = content.pop("modelDescription.xml").decode()
-    return check(text) + [
-        f"{rule.__doc__} {f}" for rule in files.RULES for f in rule(ElementTree.fromstring(text), content)
-    ]
+    return (
+        [f"fmpy: {finding}" for finding in of_fmpy(path)]
+        + check(text)
+        + [f"{rule.__doc__} {f}" for rule in files.RULES for f in rule(ElementTree.fromstring(text), content)]
+    )
 
 
 def main(paths: Iterable[str]) -> int:

@@ -8,26 +8,7 @@ from xml.etree.ElementTree import Element
 
 from . import reading
 
-_ELEMENTS = (
-    *(
-        "ModelExchange",
-        "CoSimulation",
-        "ScheduledExecution",
-        "UnitDefinitions",
-        "TypeDefinitions",
-        "LogCategories",
-        "DefaultExperiment",
-    ),
-    *("VendorAnnotations", "ModelVariables", "ModelStructure", "Annotations"),
-)
 _EXPERIMENT = {"startTime": "0", "stopTime": "1", "stepSize": "1"}
-
-
-def elements_in_order(root: Element) -> Iterator[str]:
-    """The elements have a fixed order:"""
-    tags = [element.tag for element in root]
-    if tags != [tag for tag in _ELEMENTS if tag in tags]:
-        yield ", ".join(tags)
 
 
 def structure_is_complete(root: Element) -> Iterator[str]:
@@ -98,7 +79,6 @@ def experiment_is_one(root: Element) -> Iterator[str]:
 
 
 RULES = (
-    elements_in_order,
     structure_is_complete,
     dependencies_are_known,
     capabilities_are_consistent,

@@ -11,33 +11,7 @@ from xml.etree.ElementTree import Element
 from . import reading
 
 _INDEX = r"\[\d+(?:,\d+)*\]"
-_IDENTIFIER = rf"(?:[A-Za-z_]\w*|'(?:[^'\\]|\\.)+')(?:{_INDEX})?"
-_NAME = re.compile(
-    rf"{_IDENTIFIER}(?:\.{_IDENTIFIER})*|der\({_IDENTIFIER}(?:\.{_IDENTIFIER})*(?:,[1-9]\d*)?\)", re.ASCII
-)
 _BASE_UNITS = {"kg", "m", "s", "A", "K", "mol", "cd", "rad"}
-#: Causality → allowed variability (2.2.7).
-_VARIABILITY = {
-    "parameter": {"fixed", "tunable"},
-    "structuralParameter": {"fixed", "tunable"},
-    "calculatedParameter": {"fixed", "tunable"},
-    "input": {"discrete", "continuous"},
-    "output": {"constant", "discrete", "continuous"},
-    "local": {"constant", "fixed", "tunable", "discrete", "continuous"},
-    "independent": {"continuous"},
-}
-
-
-def names_are_structured(root: Element) -> Iterator[str]:
-    """Names are unique and follow the structured convention:"""
-    seen = set()
-    for variable in reading.variables(root):
-        name = variable.get("name", "")
-        if root.get("variableNamingConvention") == "structured" and not _NAME.fullmatch(name):
-            yield f"{name!r} does not follow it"
-        if name in seen:
-            yield f"{name!r} occurs twice"
-        seen.add(name)
 
 
 def arrays_are_whole(root: Element) -> Iterator[str]:
@@ -80,16 +54,6 @@ def references_are_unique(root: Element) -> Iterator[str]:
         if reference in seen:
             yield f"{seen[reference]} and {variable.get('name')} share {reference}"
         seen[reference] = variable.get("name")
-
-
-def variability_fits(root: Element) -> Iterator[str]:
-    """Variability fits causality, and only Reals are continuous:"""
-    for variable in reading.variables(root):
-        causality, variability = reading.causality(variable), reading.variability(variable)
-        if variability not in _VARIABILITY[causality]:
-            yield f"{variable.get('name')} is a {variability} {causality}"
-        elif variability == "continuous" and reading.type_of(variable).tag not in reading.CONTINUOUS:
-            yield f"{variable.get('name')} is a continuous {reading.type_of(variable).tag}"
 
 
 def starts_are_given(root: Element) -> Iterator[str]:
@@ -152,6 +116,6 @@ def types_are_declared(root: Element) -> Iterator[str]:
 
 
 RULES = (
-    *(names_are_structured, arrays_are_whole, dimensions_fit, references_are_unique, variability_fits),
+    *(arrays_are_whole, dimensions_fit, references_are_unique),
     *(starts_are_given, numbers_are_within_range, units_are_defined, types_are_declared),
 )

@@ -1,4 +1,4 @@
-"""Our own rules for FMUs: each rule finds its fault, and a description without faults passes."""
+"""Our own rules for FMUs: each finds a fault that fmpy and the schema do not find. A description without faults passes."""
 
 import re
 from zipfile import ZipFile
@@ -37,19 +37,21 @@ DESCRIPTION = """<?xml version="1.0" encoding="UTF-8"?>
   </ModelStructure>
 </fmiModelDescription>
 """
+#: In place of a rule: what fmpy or the schema of FMI finds.
+FMPY = None
 FAULTS = [  # rule, replaced text, new text
-    (structure.elements_in_order, r"(<Unit.*)(<TypeDef.*</TypeDefinitions>)", r"\2\1"),
-    (variables.names_are_structured, 'name="n"', 'name="n-1"'),
-    (variables.names_are_structured, 'name="n"', 'name="n[1"'),
-    (variables.names_are_structured, 'name="n"', 'name="x"'),
+    (FMPY, r"(<Unit.*)(<TypeDef.*</TypeDefinitions>)", r"\2\1"),
+    (FMPY, 'name="n"', 'name="n-1"'),
+    (FMPY, 'name="n"', 'name="n[1"'),
+    (FMPY, 'name="n"', 'name="x"'),
     (variables.arrays_are_whole, r"u\[2\]", "u[3]"),
     (variables.arrays_are_whole, r"u\[([12])\]", lambda m: f"u[{int(m[1]) - 1}]"),
     (variables.arrays_are_whole, r"u\[([12])\]", lambda m: f"u[{3 - int(m[1])}]"),
     (variables.arrays_are_whole, r"u\[2\]", "u[2,1]"),
     (variables.references_are_unique, 'valueReference="5"', 'valueReference="0"'),
-    (variables.variability_fits, 'variability="fixed" ', ""),
-    (variables.variability_fits, 'variability="fixed"', 'variability="discrete"'),
-    (variables.variability_fits, 'variability="discrete"', 'variability="continuous"'),
+    (FMPY, 'variability="fixed" ', ""),
+    (FMPY, 'variability="fixed"', 'variability="discrete"'),
+    (FMPY, 'variability="discrete"', 'variability="continuous"'),
     (variables.starts_are_given, ' start="4"', ""),
     (variables.starts_are_given, '<Integer min="0"', '<Integer min="0" start="0"'),
     (variables.starts_are_given, 'causality="input"', 'causality="input" initial="exact"'),
@@ -88,11 +90,13 @@ FAULTS = [  # rule, replaced text, new text
 DESCRIPTION_3 = """<?xml version="1.0" encoding="UTF-8"?>
 <fmiModelDescription fmiVersion="3.0" modelName="M" instantiationToken="{123}" variableNamingConvention="structured">
   <CoSimulation modelIdentifier="M" canGetAndSetFMUState="true" canSerializeFMUState="true"/>
-  <UnitDefinitions><Unit name="m"><BaseUnit m="1"/></Unit><Unit name="m/s"><BaseUnit m="1" s="-1"/></Unit></UnitDefinitions>
+  <UnitDefinitions><Unit name="m"><BaseUnit m="1"/></Unit><Unit name="m/s"><BaseUnit m="1" s="-1"/></Unit>
+  <Unit name="s"><BaseUnit s="1"/></Unit></UnitDefinitions>
   <TypeDefinitions><EnumerationType name="T"><Item name="A" value="1"/><Item name="B" value="2"/></EnumerationType>
   </TypeDefinitions>
   <DefaultExperiment startTime="0" stopTime="1" stepSize="0.1"/>
   <ModelVariables>
+    <Float64 name="time" valueReference="10" causality="independent" variability="continuous" unit="s"/>
     <UInt64 name="size" valueReference="9" causality="structuralParameter" variability="fixed" start="2"/>
     <Enumeration name="mode" valueReference="0" causality="parameter" variability="fixed" declaredType="T" start="1"/>
     <Float64 name="u" valueReference="1" causality="input" unit="m" min="0" max="9" start="4 5">
@@ -113,12 +117,12 @@ DESCRIPTION_3 = """<?xml version="1.0" encoding="UTF-8"?>
 </fmiModelDescription>
 """
 FAULTS_3 = [
-    (structure.elements_in_order, r"(<Unit.*)(<TypeDef.*</TypeDefinitions>)", r"\2\1"),
-    (variables.names_are_structured, 'name="n"', 'name="n-1"'),
+    (FMPY, r"(<Unit.*)(<TypeDef.*</TypeDefinitions>)", r"\2\1"),
+    (FMPY, 'name="n"', 'name="n-1"'),
     (variables.dimensions_fit, 'Dimension valueReference="9"', 'Dimension valueReference="0"'),
     (variables.dimensions_fit, 'start="4 5"', 'start="4 5 6"'),
     (variables.references_are_unique, 'valueReference="8"', 'valueReference="7"'),
-    (variables.variability_fits, 'output" min', 'output" variability="continuous" min'),
+    (FMPY, 'output" min', 'output" variability="continuous" min'),
     (variables.starts_are_given, ' start="4 5"', ""),
     (variables.numbers_are_within_range, 'start="4 5"', 'start="4 9.5"'),
     (variables.units_are_defined, 'unit="m/s"', 'unit="kg"'),
@@ -136,29 +140,43 @@ def rules(findings):
     return [rule for rule in (*lint.RULES, *files.RULES) if any(f.startswith(rule.__doc__) for f in findings)]
 
 
+def of_fmpy(description, folder):
+    (folder / "modelDescription.xml").write_text(description)
+    return lint.of_fmpy(folder)
+
+
+def broken(description, old, new):
+    changed, count = re.subn(old, new, description, flags=re.DOTALL)
+    assert count
+    return changed
+
+
 @pytest.mark.parametrize("description", [DESCRIPTION, DESCRIPTION_3])
-def test_a_description_without_faults_passes(description):
+def test_a_description_without_faults_passes(description, tmp_path):
     assert lint.check(description) == []
+    assert not of_fmpy(description, tmp_path)
 
 
 @pytest.mark.parametrize(
     ("description", "rule", "old", "new"),
     [*((DESCRIPTION, *fault) for fault in FAULTS), *((DESCRIPTION_3, *fault) for fault in FAULTS_3)],
 )
-def test_a_fault_is_found(description, rule, old, new):
-    broken, count = re.subn(old, new, description, flags=re.DOTALL)
-    assert count
-    assert rule in rules(lint.check(broken))
+def test_a_fault_is_found(description, rule, old, new, tmp_path):
+    changed = broken(description, old, new)
+    assert of_fmpy(changed, tmp_path) if rule is FMPY else rule in rules(lint.check(changed))
 
 
 @pytest.mark.parametrize(("description", "faults"), [(DESCRIPTION, FAULTS), (DESCRIPTION_3, FAULTS_3)])
-def test_every_rule_has_a_fault_that_it_alone_finds(description, faults):
+def test_every_rule_has_a_fault_that_neither_fmpy_nor_another_rule_finds(description, faults, tmp_path):
     alone = set()
     for _, old, new in faults:
-        found = rules(lint.check(re.sub(old, new, description, flags=re.DOTALL)))
-        alone |= {found[0]} if len(found) == 1 else set()
-    of_the_other = variables.arrays_are_whole if description is DESCRIPTION_3 else variables.dimensions_fit
-    assert alone == {*lint.RULES} - {of_the_other}
+        changed = broken(description, old, new)
+        found = rules(lint.check(changed))
+        alone |= {found[0]} if len(found) == 1 and not of_fmpy(changed, tmp_path) else set()
+    if description is DESCRIPTION:
+        assert alone == {*lint.RULES} - {variables.dimensions_fit}
+    else:
+        assert variables.dimensions_fit in alone
 
 
 FILES = {
