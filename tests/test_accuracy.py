@@ -68,7 +68,7 @@ def test_traction_fields_on_ellipses(method, mean):
 
 
 @pytest.mark.parametrize(("method", "N", "pmax", "L2"), [
-    ("analyn", 0.0278, 0.0283, 0.0986),  # bar 2.8 %, 3 %, .108
+    ("analyn", 0.0156, 0.0167, 0.0958),  # bar 2.8 %, 3 %, .108
     ("strip_halfspace", 0.00031, 0.0009, 0.0095),  # bar 0.1 %, 0.3 %, .02
 ])  # fmt: skip
 def test_normal_contact_of_real_patches(method, N, pmax, L2):
@@ -86,7 +86,7 @@ def test_kpec_is_contacts_kpec_patch_by_patch():
 
 @pytest.mark.parametrize(("normal", "force", "moment"), [
     ("analyn", (0.0150, 0.0684, 0.1302), 0.0137),  # bar .025 / .08
-    ("strip_halfspace", (0.0046, 0.0142, 0.0185), 0.0029),  # bar .012 / .03; .008
+    ("strip_halfspace", (0.0043, 0.0133, 0.0180), 0.0024),  # bar .012 / .03; .008
 ])  # fmt: skip
 def test_creep_forces_on_real_patches(normal, force, moment):
     errors = accuracy.errors_on_patches(normal, "fastrip_mapped")
@@ -122,6 +122,6 @@ def test_default_answers_on_difficult_patches_and_where_analyn_fails_it_says_so(
     )  # at the middles of strips .010; skewed strips are looked at beside their middles too
     force, pressure, gap_error = accuracy.errors_of(reference.wheel_rail_patches(), **contact.THESIS)
     wrong = np.abs(pressure) > 0.20
-    assert wrong.sum() == 2  # 4 with one smoothing length for all contacts
+    assert wrong.sum() == 3
     assert np.all(gap_error[wrong] > GAP_LIMIT)
-    assert np.mean(gap_error[~wrong] > GAP_LIMIT) <= 0.63  # false alarms: 10 of 16
+    assert np.sum(gap_error[~wrong] > GAP_LIMIT) <= 7  # false alarms: 6 of 15

@@ -1,4 +1,7 @@
-"""Elasticity has no length of its own: bodies of 1:k under loads of 1:k² have the same pressures and forces over their load."""
+"""Elasticity has no length of its own: bodies of 1:k under loads of 1:k² have the same pressures and forces over their load.
+
+It is linear too: a gap k times as high has the same patch under k times the load.
+"""
 
 import functools
 import math
@@ -46,6 +49,22 @@ def test_every_normal_method_is_the_same_at_any_size(normal):
         whole = solved(y, 1.0, normal=normal, tangential="fastrip_mapped")
         for k in SCALES:
             assert solved(y, k, normal=normal, tangential="fastrip_mapped") == pytest.approx(whole, abs=1e-4)
+
+
+@pytest.mark.parametrize("normal", BATCHED.normal)
+def test_a_gap_k_times_as_high_has_the_same_patch_under_k_times_the_load(normal):
+    def found(y, k):
+        s = patch_at(y).separation
+        higher = contact.Separation(s.y, s.g * k, s.A * k, s.x_c, s.tilt, s.rolling)
+        sol = contact.solve(higher, contact.Creepage(), load=LOAD * k, normal=normal, throw=False)
+        return np.r_[sol.max_pressure / (1e9 * k), 1e4 * sol.area, sol.approach / (1e-4 * k)]
+
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", ModelWarning)
+        for y in (2e-3, 5.4e-3):
+            whole = found(y, 1.0)
+            for k in (0.05, 0.3, 3.0):
+                assert found(y, k) == pytest.approx(whole, rel=1e-4), (y, k)
 
 
 @pytest.mark.parametrize("tangential", BATCHED.tangential)

@@ -50,7 +50,7 @@ def prepare(y, g, A, n, g_least, delta, work):
     floor = floor_of(half, delta)
     below, above = 0, 0
     for i in range(n):
-        B, below, above = lateral_curvature(y, g, m, n, i, base_of(half, A[i]), below, above)
+        B, below, above = lateral_curvature(y, g, m, n, i, base_of(half, A[i], delta), below, above)
         alpha, beta, nr, log_aspect = local_factors(A[i], floored(B, floor))
         work[Sample.STRETCHED_A, i] = A[i] * alpha
         work[Sample.EFFECTIVE_GAP, i] = beta * (g[i] - g_least)

@@ -49,7 +49,7 @@ def deepest(y, g, A, n, place, delta, work):
     k = locate(y, n, y_least, 0)
     t = (y_least - y[k]) / (y[k + 1] - y[k])
     A0 = (1.0 - t) * A[k] + t * A[k + 1]
-    base = base_of(half, A0)
+    base = base_of(half, A0, delta)
     B_left, below, above = lateral_curvature(y, g, m, n, k, base, 0, 0)
     B_right, _, _ = lateral_curvature(y, g, m, n, k + 1, base, below, above)
     B0 = floored((1.0 - t) * B_left + t * B_right, floor)
