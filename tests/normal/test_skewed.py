@@ -87,14 +87,17 @@ def test_the_start_of_a_turned_ellipse_is_exact():
 def test_a_yawed_flange_contact_has_the_approach_of_the_half_space(y, yaw, before):
     """With strips on the line of least gap the approach was too large: .9 to 1.3 %, the pressure `before` lower."""
     pair = wheelset.Pair(profile.s1002(), profile.rail_60e1(inclination=1 / 40))
-    (patch,) = pair.contacts(wheelset.Pose(y=y, yaw=yaw), load=8e4)
-    N = patch.load
-    strips = contact.solve(patch.separation, NO_CREEP, load=N)
-    elements = contact.solve(
-        patch.separation, NO_CREEP, load=N, normal="halfspace", tangential="halfspace", n_strips=60, n_elements=60
-    )
-    assert strips.approach == pytest.approx(elements.approach, rel=2e-3)
-    assert strips.max_pressure > (1.0 - before) * elements.max_pressure
+    lower = []
+    for load in (7e4, 7.5e4, 8e4, 8.4e4):  # with the load the peak of such a patch moves from strip to strip
+        (patch,) = pair.contacts(wheelset.Pose(y=y, yaw=yaw), load=load)
+        N = patch.load
+        strips = contact.solve(patch.separation, NO_CREEP, load=N)
+        elements = contact.solve(
+            patch.separation, NO_CREEP, load=N, normal="halfspace", tangential="halfspace", n_strips=60, n_elements=60
+        )
+        assert strips.approach == pytest.approx(elements.approach, rel=2e-3)
+        lower.append(1.0 - strips.max_pressure / elements.max_pressure)
+    assert np.mean(lower) < before
 
 
 def test_the_gap_error_tells_of_pressures_with_two_humps_along_a_strip():

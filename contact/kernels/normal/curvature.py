@@ -62,7 +62,7 @@ def half_width(y, g, m, n, g_least, delta):
 
 @kernel
 def base_of(half, A, delta):
-    """Return the half base [m] at the approach `delta` [m] where the overlap has the half width `half` [m]; A [1/m] is g''/2 along x."""
+    """Return the half base [m] for an overlap of half width `half` at the approach `delta` [m]; A is g''/2 along x [1/m]."""
     return BASE_SHARE * half / math.sqrt(1.0 + half * half * A / delta)
 
 
