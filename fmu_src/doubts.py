@@ -1,6 +1,7 @@
-"""Values that are allowed but that no wheel on a rail has: a message of both packagings, once for each instance and rule.
+"""Values that are allowed but that no wheel on a rail has, and answers that leave something out.
 
-The rules are those of Python (`contact.inputs.plausibility`), under the names of the variables.
+Both packagings say so, once for each instance and rule. The rules are those of Python (`contact.inputs.plausibility`), under
+the names of the variables.
 """
 
 from __future__ import annotations
@@ -9,6 +10,7 @@ from collections.abc import Iterator
 from typing import NamedTuple
 
 from contact.inputs.plausibility import USUAL, Usual
+from contact.results import ANSWERS
 from .variables import Table
 
 #: Row → rule. A wheel carries another load than a patch.
@@ -45,13 +47,15 @@ class Rule(NamedTuple):
 
 
 def rules(table: Table) -> Iterator[Rule]:
-    """Yield the rules for the rows that a host gives."""
+    """Yield the rules for the rows that a host gives, and that of the answer."""
     pair = "velocity.spin" in table.row
     for row, name in {**_ROWS, **(_PAIR if pair else _CONTACT)}.items():
         if row in table.row and table.row[row].is_given:
             yield Rule((row,), USUAL[name])
     if pair and table.row[_SLIP[0]].is_given:
         yield Rule(_SLIP, USUAL["slip"])
+    if "bend" in table.row:
+        yield Rule(("bend",), ANSWERS["bend"])
 
 
 def text(rule: Rule) -> str:

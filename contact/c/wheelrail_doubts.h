@@ -1,4 +1,5 @@
-/* The part of wheelrail.c with values that are allowed but that no wheel on a rail has.  Included there once.
+/* The part of wheelrail.c with values that are allowed but that no wheel on a rail has, and with answers that leave something
+ * out.  Included there once.
  *
  * The rules are those of contact.inputs.plausibility, by way of wheelrail_records.h. */
 
@@ -54,4 +55,21 @@ int wr_pair_doubts(const wr_pair_options *o, const wr_pair_input *in) {
     return doubt(U_POSE_Y, m->y) | doubt(U_POSE_ROLL, m->roll) | doubt(U_POSE_YAW, m->yaw) | doubt(U_SPEED, m->vx) |
            doubt(U_SLIP, m->vx > 0.0 ? 1.0 + m->spin * o->wheel_radius / m->vx : 0.0) |
            doubt(U_WHEEL_LOAD, under_load ? in->amount : 0.0) | doubt_surface(&in->surface);
+}
+
+/* Doubts about an answer of strips with this largest change of the contact angle and this error of the gap. */
+static int doubt_answer(const wr_contact_options *o, double bend, double gap_error) {
+    return doubt(U_BEND, bend) | doubt(find(0, o->normal)->interacting ? U_GAP_ERROR_INTERACTING : U_GAP_ERROR, gap_error);
+}
+
+int wr_contact_answer_doubts(const wr_contact_options *o, const wr_result *result) {
+    TRY(check_contact_options(o));
+    TRY(aligned(result, A_result));
+    return doubt_answer(o, result->bend, result->gap_error);
+}
+
+int wr_pair_answer_doubts(const wr_pair_options *o, const wr_pair_answer *answer) {
+    TRY(check_pair_options(o));
+    TRY(check_answer_struct(answer));
+    return doubt_answer(&o->patch, answer->total.bend, answer->total.gap_error);
 }

@@ -24,6 +24,7 @@ from contact.kernels.normal.strip_halfspace import MAX_ITERATIONS
 from contact.kernels.records import MOTION
 from contact.kernels.rows import Bin, Field, Strip
 from contact.registry import DEFAULT_NORMAL, DEFAULT_TANGENTIAL, methods
+from contact.results import ANSWERS
 
 PATH = Path(__file__).parents[2] / "contact" / "include" / "wheelrail_records.h"
 #: Record of `contact.kernels.records` → name in C.
@@ -142,14 +143,15 @@ def _surface_defaults() -> str:
 
 def _doubts() -> str:
     """Return the rules of `contact.inputs.plausibility` as bits, with their limits and texts."""
-    names = {name: re.sub(r"\W", "_", name).upper() for name in USUAL}
+    every = {**USUAL, **ANSWERS}
+    names = {name: re.sub(r"\W", "_", name).upper() for name in every}
     values = "\n".join(f"    WR_DOUBT_{c_name} = {1 << k}," for k, c_name in enumerate(names.values()))
     rows = " \\\n".join(
         f'    X({names[name]}, "{name}", {usual.largest!r}, {usual.least!r}, "{usual.hint}")'
-        for name, usual in USUAL.items()
+        for name, usual in every.items()
     )
     return (
-        f"/* Values that no wheel on a rail has. */\nenum {{\n{values}\n}};\n\n"
+        f"/* Values that no wheel on a rail has, and answers that leave something out. */\nenum {{\n{values}\n}};\n\n"
         f"/* X(name, its text, largest and least usual magnitude, what is usual) */\n#define WR_DOUBTS(X) \\\n{rows}"
     )
 

@@ -123,6 +123,10 @@ WR_API int wr_contact_derivatives(void *memory, const wr_separation *separation,
 WR_API int wr_contact_doubts(const wr_separation *separation, const wr_case *problem);
 /* What is usual, for the first of these doubts; "" for none.  for (; doubts > 0; doubts &= doubts - 1) puts(wr_doubt(doubts)); */
 WR_API const char *wr_doubt(int doubts);
+/* The same of an answer: what strips leave out where the contact angle changes much over a patch, and a gap_error above the limit
+ * of the method.  Unlike bodies are the caller's: G and nu are those of two alike, and what couples their normal and tangential
+ * displacements is left out (forces up to 0.08 of friction times load). */
+WR_API int wr_contact_answer_doubts(const wr_contact_options *options, const wr_result *result);
 /* Fields of the last answer. */
 WR_API int wr_contact_fields(const void *memory, wr_fields *fields);
 /* Pressure and traction on equal rectangles, in arrays of the caller.  Element (i, j) is [i * nx + j]. */
@@ -226,6 +230,7 @@ WR_API int wr_pair_input_default(const wr_pair_options *options, double mu, doub
                                  wr_pair_input *input);
 /* As wr_contact_doubts, of pose, speed, spin, load, friction and material.  A spin that does not belong to the speed is one. */
 WR_API int wr_pair_doubts(const wr_pair_options *options, const wr_pair_input *input);
+WR_API int wr_pair_answer_doubts(const wr_pair_options *options, const wr_pair_answer *answer);
 WR_API int wr_pair_solve(void *memory, const wr_pair_input *input, wr_pair_answer *answer);
 /* Also books the damage of the last answer, once.  Call wr_pair_patch before it. */
 WR_API int wr_pair_accept(void *memory);

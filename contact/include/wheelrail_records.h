@@ -225,7 +225,7 @@ typedef struct {
     double pressure_y; /* part of Fy from pressure on a curved surface [N] */
     double touch; /* approach at first touch [m] */
     double gap_error; /* largest remaining gap or overlap in the patch over the approach [-] */
-    double bend; /* largest change of the contact angle over a patch [rad] */
+    double bend; /* change of the contact angle over all patches of the separation [rad] */
     double edges[8]; /* lateral edges of the patches, two each [m] */
 } wr_result;
 #if defined(__STDC_VERSION__) && __STDC_VERSION__ >= 201112L
@@ -352,6 +352,7 @@ typedef struct {
     double Y; /* lateral force of the wheel on the rail, positive outwards [N] */
     double Y_over_Q; /* [-]; 0 without vertical force */
     double used_friction; /* sum of the creep forces over that of the normal forces [-] */
+    double bend; /* largest change of the contact angle over the patches in one plane [rad] */
     double T_gamma; /* |Fx vx| + |Fy vy| [N] */
     double T_gamma_spin; /* the same + |Mz phi| [N] */
     double dissipation; /* [N] */
@@ -365,7 +366,7 @@ typedef struct {
     double energy_index; /* greatest [Pa] */
 } wr_total;
 #if defined(__STDC_VERSION__) && __STDC_VERSION__ >= 201112L
-_Static_assert(sizeof(wr_total) == 240, "wr_total");
+_Static_assert(sizeof(wr_total) == 248, "wr_total");
 #endif
 
 typedef struct {
@@ -417,7 +418,7 @@ _Static_assert(sizeof(wr_damage_parameters) == 264, "wr_damage_parameters");
     X(warm_range, 400.0) \
     X(heating, 2.1226040109865864e-05)
 
-/* Values that no wheel on a rail has. */
+/* Values that no wheel on a rail has, and answers that leave something out. */
 enum {
     WR_DOUBT_LOAD = 1,
     WR_DOUBT_APPROACH = 2,
@@ -435,6 +436,9 @@ enum {
     WR_DOUBT_POSE_YAW = 8192,
     WR_DOUBT_SLIP = 16384,
     WR_DOUBT_WHEEL_LOAD = 32768,
+    WR_DOUBT_BEND = 65536,
+    WR_DOUBT_GAP_ERROR = 131072,
+    WR_DOUBT_GAP_ERROR_INTERACTING = 262144,
 };
 
 /* X(name, its text, largest and least usual magnitude, what is usual) */
@@ -454,6 +458,9 @@ enum {
     X(POSE_ROLL, "pose.roll", 0.05, 0.0, "a wheelset has less than 0.03 rad; the unit is rad") \
     X(POSE_YAW, "pose.yaw", 0.05, 0.0, "a wheelset has less than 0.03 rad; the unit is rad") \
     X(SLIP, "slip", 0.45, 0.0, "a rolling wheel has less than 0.02; spin is negative when rolling forward, about -forward/radius") \
-    X(WHEEL_LOAD, "wheel load", 5000000.0, 1000.0, "a wheel carries 20 to 150 kN; the unit is N")
+    X(WHEEL_LOAD, "wheel load", 5000000.0, 1000.0, "a wheel carries 20 to 150 kN; the unit is N") \
+    X(BEND, "bend", 0.4, 0.0, "the contact angle changes by more than 23 degrees over the patch, which strips take as plane: a lateral force of the pressure of up to 0.1 of the load is left out, and creep forces change by 0.03 of friction times load in the median. A conformal surface has both, but the influence numbers of a plane: 0.02 to 0.06 of friction times load in the median (limits.md)") \
+    X(GAP_ERROR, "gap_error", 0.17, 0.0, "the pressure leaves gaps or overlaps inside the patch; above 0.17 the largest pressure is more than 5 % wrong on most patches (limits.md)") \
+    X(GAP_ERROR_INTERACTING, "gap_error interacting", 0.03, 0.0, "the pressure leaves gaps or overlaps inside the patch; above 0.03 the largest pressure is more than 5 % wrong on most patches (limits.md)")
 
 #endif

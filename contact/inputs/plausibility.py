@@ -104,6 +104,24 @@ def _once(told: set[str], reason: str, text: str) -> None:
         told.add(reason)
 
 
+def about_bend(largest: float) -> str:
+    """Return what strips leave out where the contact angle changes by more than `largest` [rad] over a patch."""
+    return (
+        f"the contact angle changes by more than {math.degrees(largest):.0f} degrees over the patch, which strips take as "
+        "plane: a lateral force of the pressure of up to 0.1 of the load is left out, and creep forces change by 0.03 of "
+        "friction times load in the median. A conformal surface has both, but the influence numbers of a plane: 0.02 to 0.06 "
+        "of friction times load in the median (limits.md)"
+    )
+
+
+def about_gap(limit: float) -> str:
+    """Return what a `gap_error` above `limit` means."""
+    return (
+        f"the pressure leaves gaps or overlaps inside the patch; above {limit:g} the largest pressure is more than 5 % wrong "
+        "on most patches (limits.md)"
+    )
+
+
 def doubt_strips(bend: float, largest: float, conformal: bool, told: set[str]) -> None:
     """Warn of a patch over which the contact angle changes by `bend` [rad], more than `largest`, solved on strips."""
     if bend > largest:

@@ -155,7 +155,7 @@ def clear_total(total):
     total.Fx, total.Fy, total.Fz, total.Mx, total.My, total.Mz, total.z = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
     total.n_patches, total.status = 0, Status.NO_CONTACT
     total.pmax, total.area, total.slip_area, total.power, total.gap_error = 0.0, 0.0, 0.0, 0.0, 0.0
-    total.N, total.Q, total.Y, total.Y_over_Q, total.used_friction = 0.0, 0.0, 0.0, 0.0, 0.0
+    total.N, total.Q, total.Y, total.Y_over_Q, total.used_friction, total.bend = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
     clear_damage(total)
 
 
@@ -259,20 +259,16 @@ def _press(n, bench):
 
 @kernel
 def _solve(n, enters, bench):
-    """Solve the `n` patches of the last search and add up. The ledger is filled if `enters` says so.
-
-    `bend` of `bench.result` becomes that of the most bent patch.
-    """
+    """Solve the `n` patches of the last search and add up. The ledger is filled if `enters` says so."""
     own, total, result = bench.own, bench.total[0], bench.result[0]
     damage, case, motion = bench.damage[0], bench.patch_case[0], bench.search.motion[0]
-    bend = 0.0
     for k in range(MAX_PATCHES):
         clear_contact(bench.contacts[k])
     clear_total(total)
     for k in range(n):
         patch, contact = bench.search.patches[k], bench.contacts[k]
         n_strips = solve_patch(k, bench)
-        bend = max(bend, result.bend)
+        total.bend = max(total.bend, result.bend)
         pressure = pressure_wrench(own.strips, n_strips)
         report(patch, case, result, pressure, contact)
         if n_strips > 0:
@@ -282,7 +278,6 @@ def _solve(n, enters, bench):
             total.gap_error = max(total.gap_error, contact.gap_error)
             if enters and bench.ledger.bins.shape[2] > 0 and bench.ledger.settings[0].distance > 0.0:
                 enter(patch, n_strips, damage, bench)
-    result.bend = bend
     total.z, total.n_patches = motion.z, n
     _compare_forces(total)
     _mirror(motion.mirror, n, bench.contacts, total)

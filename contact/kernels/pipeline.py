@@ -175,14 +175,12 @@ def press_case(sep: Samples, case: Case, own: Workspace, result: Result) -> int:
     if 0.0 < case.pressure_limit < result.pmax:
         result.pmax, result.limited = case.pressure_limit, 1
         _limit_pressure(strips, n, case.pressure_limit, elements, fields, result.N)
-    y_low, y_high = math.inf, -math.inf
-    for k in range(count):
-        low, high = result.edges[2 * k], result.edges[2 * k + 1]
-        y_low, y_high = min(y_low, low), max(y_high, high)
-        at_low, _ = surface_at(sep.y, sep.tilt, low)
-        at_high, _ = surface_at(sep.y, sep.tilt, high)
-        result.bend = max(result.bend, abs(math.atan(at_high) - math.atan(at_low)))
-    result.length, result.width = x_high - x_low, y_high - y_low
+    y_low, y_high, least, most = math.inf, -math.inf, math.inf, -math.inf
+    for k in range(2 * count):  # all patches of a separation lie in one plane
+        at = result.edges[k]
+        tilt, _ = surface_at(sep.y, sep.tilt, at)
+        y_low, y_high, least, most = min(y_low, at), max(y_high, at), min(least, tilt), max(most, tilt)
+    result.length, result.width, result.bend = x_high - x_low, y_high - y_low, math.atan(most) - math.atan(least)
     return n
 
 

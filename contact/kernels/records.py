@@ -112,7 +112,7 @@ RESULT = _record(
     pressure_y      part of Fy from pressure on a curved surface [N]
     touch           approach at first touch [m]
     gap_error       largest remaining gap or overlap in the patch over the approach [-]
-    bend            largest change of the contact angle over a patch [rad]
+    bend            change of the contact angle over all patches of the separation [rad]
     edges:{2 * MAX_PATCHES}         lateral edges of the patches, two each [m]
     """,
 )
@@ -287,6 +287,7 @@ TOTAL = _record(
     Y               lateral force of the wheel on the rail, positive outwards [N]
     Y_over_Q        [-]; 0 without vertical force
     used_friction   sum of the creep forces over that of the normal forces [-]
+    bend            largest change of the contact angle over the patches in one plane [rad]
     """
     + _DAMAGE,
 )

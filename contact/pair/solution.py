@@ -132,6 +132,8 @@ class PairSolution(Tabular):
     damage : damage of all patches
     status : Status
     gap_error : the greatest of the patches [-]
+    bend : largest change of the contact angle over the patches of one plane [rad]; `contact.Solution.bend` says what it means.
+        It is 0 where no strips are solved
     deflection : lateral and vertical deflection of an elastic rail [m], added to its irregularity; 0 for a rigid rail
     spin : rotation about the axle [rad/s], as given or as found for a force or a torque; negative when rolling forward
     jacobian : derivatives of force, moment and z; None unless they were asked for
@@ -154,6 +156,7 @@ class PairSolution(Tabular):
     gap_error: float
     deflection: tuple[float, float] = (0.0, 0.0)
     spin: float = 0.0
+    bend: float = 0.0
     jacobian: PairJacobian | None = field(default=None, repr=False)
 
     @classmethod
@@ -276,6 +279,7 @@ def of_patches(
         status=_status([contact.status for contact in contacts]),
         gap_error=max((c.gap_error for c in contacts), default=0.0),
         spin=spin,
+        bend=max((one.solution.bend for one in found), default=0.0),
     )
 
 

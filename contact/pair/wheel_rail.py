@@ -293,8 +293,7 @@ class WheelRailPair(AnyPair):
         jacobian = self._derive(mode, self._motion[0], load, penetration, vertical) if derivatives else None
         found = self._answer.solution(code, given[_SPIN], jacobian)
         doubt_gap(found.gap_error, self._gap_limit, self.pair.told)
-        bend, conformal = float(self.bench.result[0]["bend"]), bool(self.bench.case[0]["conformal"])
-        doubt_strips(bend, BEND, conformal, self.pair.told)
+        doubt_strips(found.bend, BEND, bool(self.bench.case[0]["conformal"]), self.pair.told)
         return found
 
     def _derive(

@@ -2,6 +2,17 @@
 
 from contact.results.jacobian import Jacobian, PairJacobian
 from contact.results.resultants import CaseForces, Forces
-from contact.results.solution import BEND, Prepared, Solution, Status, Strips
+from contact.results.solution import ANSWERS, BEND, Prepared, Solution, Status, Strips
 
-__all__ = ["BEND", "CaseForces", "Forces", "Jacobian", "PairJacobian", "Prepared", "Solution", "Status", "Strips"]
+__all__ = [
+    "ANSWERS",
+    "BEND",
+    "CaseForces",
+    "Forces",
+    "Jacobian",
+    "PairJacobian",
+    "Prepared",
+    "Solution",
+    "Status",
+    "Strips",
+]

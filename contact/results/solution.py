@@ -17,12 +17,13 @@ from contact.damage import Damage, evaluate
 from contact.errors import only_with_fields
 from contact.inputs.creepage import Creepage
 from contact.inputs.material import Material
+from contact.inputs.plausibility import Usual, about_bend, about_gap
 from contact.kernels.arrays import Workspace
 from contact.kernels.enumerations import Status
 from contact.kernels.friction import of_case
 from contact.kernels.records import CASE, RESULT
 from contact.kernels.rows import Field, Strip
-from contact.registry import methods
+from contact.registry import GAP_LIMIT, GAP_LIMIT_INTERACTING, methods
 from contact.results.jacobian import Jacobian
 from contact.results.pressure import pressure_at, sketch
 from contact.view.notebook import beside, table
@@ -32,7 +33,12 @@ Records = NDArray[np.void]
 
 #: Change of the contact angle over a patch above which a plane contact may be wrong [rad] (docs/check/limits.md).
 BEND = 0.4
-
+#: What is doubted of an answer of strips: its largest usual value, and what is wrong above it.
+ANSWERS = {
+    "bend": Usual(BEND, about_bend(BEND)),
+    "gap_error": Usual(GAP_LIMIT, about_gap(GAP_LIMIT)),
+    "gap_error interacting": Usual(GAP_LIMIT_INTERACTING, about_gap(GAP_LIMIT_INTERACTING)),
+}
 
 #: Attribute of a solution → its place in the kernel's record or in the kernel's fields.
 _RENAMED = {"pmax": "max_pressure", "power": "power_per_metre", "stiffness": "normal_stiffness"}
@@ -115,8 +121,9 @@ class Solution(Tabular):
     gap_error : the largest gap or overlap that the pressure leaves inside the patch, over the approach [-]. It estimates the
         error of the normal problem: 0 is exact, above the method's `gap_limit` (`contact.methods()`) the largest pressure
         is doubtful
-    bend : largest change of the contact angle over a patch [rad]. The contact is taken as plane unless `conformal`; above
-        `BEND` its lateral force is up to a tenth of the load off. The half space in the plane does not tell it: 0
+    bend : change of the contact angle over the patches, which lie in one plane [rad]. The contact is taken as plane unless
+        `conformal`; above `BEND` its lateral force is up to a tenth of the load off. The half space in the plane does not
+        tell it: 0
     length, width : extent of the patch along x and y [m]
     n_patches, iterations : int
     status : Status

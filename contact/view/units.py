@@ -10,7 +10,7 @@ _NAMES = {
     "y radius gauge back_to_back left_radius reach amplitude penetration approach profile_smoothing profile_zero "
     "profile_wavelength smoothing wavelength centre position rolling_radius length width radius_difference right_on_wheel "
     "right_on_rail right_radius left_on_wheel left_on_rail distance at mileage on_rail_y on_rail_z on_wheel_y on_wheel_z",
-    "rad": "rotation turned profile_rotation pitch roll yaw angle contact_angle angle_difference right_angle left_angle",
+    "rad": "bend rotation turned profile_rotation pitch roll yaw angle contact_angle angle_difference right_angle left_angle",
     "m/s": "speed velocity",
     "N": "guiding "
     "load vertical Q Y N Fx Fy Fz fx fy force preload force_x force_y normal_force T_gamma T_gamma_spin dissipation "

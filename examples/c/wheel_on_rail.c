@@ -37,6 +37,8 @@ int main(void) {
         fprintf(stderr, "%s\n", line);
         return 1;
     }
+    for (int doubts = wr_pair_answer_doubts(&options, &answer); doubts > 0; doubts &= doubts - 1) /* what strips leave out */
+        fprintf(stderr, "%s\n", wr_doubt(doubts));
     printf("%s: Fx %.3f Fy %.3f Fz %.3f N, largest pressure %.1f MPa\n", wr_message(code), answer.total.Fx,
            answer.total.Fy, answer.total.Fz, 1e-6 * answer.total.pmax);
     TRY(wr_pair_accept(memory)) /* the next step starts from here */

@@ -54,6 +54,7 @@ _OUTPUTS = {
     "wheel.Y": "Y",
     "wheel.Y_over_Q": "Y_over_Q",
     "used_friction": "used_friction",
+    "bend": "bend",
     **DAMAGE_OUTPUTS,
 }
 _steps = arranging(creepage_steps)

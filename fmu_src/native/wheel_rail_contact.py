@@ -69,6 +69,7 @@ _OUTPUTS = {
     "stiffness.normal": "stiffness",
     "status": "status",
     "gap_error": "gap_error",
+    "bend": "bend",
 }
 _steps = arranging(creepage_steps)
 

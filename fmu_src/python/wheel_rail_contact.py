@@ -65,6 +65,7 @@ class WheelRailContactSlave(TableSlave):
             "stiffness.normal": solution.normal_stiffness,
             "status": int(solution.status),
             "gap_error": solution.gap_error,
+            "bend": solution.bend,
             "total.energy": values["total.energy"] + power * step_size,
             "total.worn_volume": values["total.worn_volume"] + values["speed"] * volume * step_size,
         }

@@ -77,6 +77,7 @@ class WheelRailPairSlave(TableSlave):
                 "wheel.Y": solution.Y,
                 "wheel.Y_over_Q": solution.Y_over_Q,
                 "used_friction": solution.used_friction,
+                "bend": solution.bend,
                 "rail.deflection_y": solution.deflection[0],
                 "rail.deflection_z": solution.deflection[1],
                 "total.energy": values["total.energy"] + power * step_size,

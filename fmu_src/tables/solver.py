@@ -9,6 +9,7 @@ import contact
 from contact import Status, friction, registry
 from contact.inputs.material import THERMAL_RANGE, Thermal
 from contact.inputs.options import ITERATIONS, N_ELEMENTS, N_STRIPS
+from contact.results import BEND
 from ..variables import Enumeration, Variable, output, parameter, taken
 
 NORMAL_METHOD = Enumeration("NormalMethod", tuple((m.name, m.title) for m in contact.methods().batched.normal.values()))
@@ -290,6 +291,18 @@ def status_and_totals() -> Iterable[Variable]:
     yield output("status", "Status of the solution", enumeration=STATUS)
     yield output("total.energy", "Energy dissipated since start", unit="J", start=0.0, minimum=0.0, depends=())
     yield output("total.worn_volume", "Volume worn off since start", unit="m3", start=0.0, minimum=0.0, depends=())
+
+
+def bend(depends: tuple[str, ...] | None = None) -> Variable:
+    """Return how far the contact angle changes over a patch."""
+    return output(
+        "bend",
+        f"Largest change of the contact angle over the patches in one plane. Above {BEND:g} rad strips in a plane are doubtful",
+        unit="rad",
+        minimum=0.0,
+        nominal=0.1,
+        depends=depends,
+    )
 
 
 def gap_error(depends: tuple[str, ...] | None = None) -> Variable:

@@ -229,6 +229,7 @@ def _outputs() -> Iterable[Variable]:
     )
     yield from solver.status_and_totals()
     yield solver.gap_error(depends=_NORMAL_PROBLEM)
+    yield solver.bend(depends=_NORMAL_PROBLEM)
 
 
 def _fields() -> Iterable[Variable]:

@@ -283,6 +283,7 @@ def outputs() -> Iterable[Variable]:
         yield output(
             f"rail.deflection_{axis}", f"{way} deflection of the rail on springs, in balance", unit="m", nominal=1e-3
         )
+    yield solver.bend()
     yield from _accumulated()
 
 

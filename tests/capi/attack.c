@@ -257,6 +257,12 @@ static void attack_pair(void) {
         memcpy((char *)&forged + 8 * i, &nan, 8);
         if (wr_pair_doubts(&o, &forged) < 0) failures++;
     }
+    REFUSED(wr_pair_answer_doubts(NULL, &a), "options");
+    REFUSED(wr_pair_answer_doubts(&o, NULL), "answer");
+    WITH(a.size, 3, wr_pair_answer_doubts(&o, &a), "answer");
+    WITH(o.patch.normal, 1000, wr_pair_answer_doubts(&o, &a), "options.patch.normal");
+    REFUSED(wr_contact_answer_doubts(NULL, &r), "options");
+    REFUSED(wr_contact_answer_doubts(&o.patch, NULL), "result");
     in.motion.vx = 40.0; /* its spin belongs to 20 m/s */
     if (wr_pair_doubts(&o, &in) != WR_DOUBT_SLIP) printf("a spin is not doubted\n"), failures++;
     in.motion.vx = 20.0;

@@ -7,11 +7,13 @@ import numpy as np
 import pytest
 
 import contact
-from contact.errors import PlausibilityWarning, silent
+from contact.errors import ModelWarning, PlausibilityWarning, silent
 from contact.geometry import profile
 from contact.geometry.wheelset import Pair as Profiles
 from contact.geometry.wheelset import Pose, Velocity
 from contact.inputs.plausibility import USUAL, doubt_case, doubt_value
+from contact.pair import WheelRailPair
+from contact.results import ANSWERS, BEND
 from tests.capi.library import Library, Pair, Patch
 
 SIZES = 10.0 ** np.arange(-4.0, 5.0)  # factors on usual values
@@ -49,7 +51,8 @@ def of_python(function):
 
 
 def test_every_rule_has_a_bit_and_its_text(library):
-    assert texts(library, 2 ** len(USUAL) - 1) == [f"{name}: {usual.hint}" for name, usual in USUAL.items()]
+    every = {**USUAL, **ANSWERS}
+    assert texts(library, 2 ** len(every) - 1) == [f"{name}: {usual.hint}" for name, usual in every.items()]
 
 
 @pytest.mark.parametrize("seed", range(4))
@@ -133,3 +136,27 @@ def test_usual_mistakes_are_doubted(library, changed, said):
         of[name] = value
     found = texts(library, library.call("wr_pair_doubts", pair.options, pair.input))
     assert [text.split(": ")[0] for text in found] == said
+
+
+@pytest.mark.parametrize("normal", ["strip_halfspace", "analyn"])
+def test_an_answer_is_doubted_as_in_python(library, normal):
+    wheel, rail, fired = profile.s1002(), profile.rail_60e1(), Counter()
+    for y in np.linspace(4e-3, 7.5e-3, 15):
+        pair = WheelRailPair(Profiles(wheel, rail), normal=normal)
+        with warnings.catch_warnings(record=True) as caught:
+            warnings.simplefilter("always")
+            found = pair.solve(Pose(y=float(y)), Velocity(20.0, spin=-20.0 / 0.46), friction=0.3, load=80e3)
+        said = [str(each.message) for each in caught if each.category is ModelWarning]
+        of_c = Pair(library, wheel, rail)
+        of_c.options["patch"]["normal"] = int(contact.methods().normal[normal].id)
+        of_c = Pair(library, wheel, rail, patch=of_c.options["patch"].copy())
+        of_c.input["motion"]["y"] = y
+        of_c.solve()
+        assert of_c.answer["total"]["bend"] == pytest.approx(found.bend, abs=1e-9)
+        doubts = texts(library, library.call("wr_pair_answer_doubts", of_c.options, of_c.answer))
+        bent, gap = (sum(word in text for text in said) for word in ("the contact angle changes", "gap_error = "))
+        assert Counter(text.split(":")[0].split(" ")[0] for text in doubts) == Counter(bend=bent, gap_error=gap)
+        fired.update(bend=bent, gap_error=gap)
+        assert bent == (found.bend > BEND)
+    assert fired["bend"] > 0
+    assert fired["gap_error"] > 0 or normal == "strip_halfspace"

@@ -109,6 +109,7 @@ def expected(s: PairSolution, speed: float) -> dict[str, float]:
         "wheel.Y": s.Y,
         "wheel.Y_over_Q": s.Y_over_Q,
         "used_friction": s.used_friction,
+        "bend": s.bend,
         "rail.deflection_y": s.deflection[0],
         "rail.deflection_z": s.deflection[1],
     }

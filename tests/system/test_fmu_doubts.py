@@ -8,8 +8,9 @@ from fmu_instance_fmi3 import Instance3
 from contact.errors import PlausibilityWarning
 from contact.geometry import profile
 from contact.geometry.wheelset import Pair, Pose, Velocity
-from contact.inputs.plausibility import USUAL
+from contact.inputs.plausibility import USUAL, about_bend
 from contact.pair import WheelRailPair
+from contact.results import BEND
 
 #: Inputs of a pair, and what is said of them.
 PAIR = [
@@ -58,6 +59,18 @@ def test_the_status_of_the_step_is_a_warning_and_the_next_one_is_ok(opened):
     fmu.update({"friction.coefficient": 35.0})
     step = fmu.fmu.dll.fmi2DoStep
     assert [step(fmu.fmu.component, 1e-3 * k, 1e-3, 0) for k in range(2)] == [WARNING, 0]
+
+
+def test_a_bent_patch_that_strips_take_as_plane_is_told_once(opened):
+    fmu = opened("WheelRailPair")
+    fmu.initialize().step()
+    assert 0.0 < fmu["bend"] < BEND
+    fmu.update({"pose.y": 6.75e-3})
+    for _ in range(3):
+        fmu.step()
+    assert fmu["bend"] > BEND
+    (said,) = warned(fmu)
+    assert said == f"bend = {fmu['bend']:g}: {about_bend(BEND)}"
 
 
 def test_a_contact_doubts_its_own_values(opened):
