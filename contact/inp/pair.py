@@ -155,7 +155,10 @@ class _FilePair(TransientPair):
         """Return the solution of patches as CONTACT separates them: beyond D_SEP each counts for itself, and fully."""
         limit = self.case["D_SEP"]
         kept = [p for p in patches if p.share == 1.0 or not lobes.reaches_over(p.gap, p.approach, limit)]
-        return super()._solution([replace(p, share=1.0) for p in kept], at)
+        alone = [replace(p, share=1.0) for p in kept]
+        if not self.conformal:
+            alone = lobes.turned(alone, self.pair, (limit, self.case["D_TURN"], self.case["A_SEP"]))
+        return super()._solution(alone, at)
 
     def _under(self, vertical: float, at: Instant) -> PairSolution:
         """Return the solution under a vertical force, from whole solutions at heights, of which few are needed.
@@ -173,7 +176,8 @@ class _FilePair(TransientPair):
             tried.append((abs(found.Q - vertical), depth))
             return 0.0 if tried[-1][0] <= _TOLERANCE * vertical else max(found.Q, 0.0) ** (2.0 / 3.0) - target
 
-        start = self._depth or min(1e-4 * (vertical / 1e5) ** (2.0 / 3.0), 0.5 * DEEPEST)
+        rigid = min(1e-4 * (vertical / 1e5) ** (2.0 / 3.0), 0.5 * DEEPEST)
+        start = (self._depth if self.case.continues else None) or rigid
         root = rising_root(residual, start, target / start, (0.0, DEEPEST), shortest=_SHORTEST, most=_MOST)
         best = min(tried)
         if best != tried[-1]:
