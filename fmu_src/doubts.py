@@ -32,7 +32,7 @@ _ROWS = {
     "pose.roll": "pose.roll",
     "pose.yaw": "pose.yaw",
 }
-#: Rows of the slip of a wheel: 1 + first * third / second, of a wheel that moves forward.
+#: Rows of the slip of a wheel: 1 + first * third / second, of a wheel that moves.
 _SLIP = ("velocity.spin", "velocity.x", "wheel.radius")
 
 

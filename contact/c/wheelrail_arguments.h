@@ -26,7 +26,7 @@ enum {
     M(combine_distance, REAL, 0.0, INFINITY, __VA_ARGS__) M(combine_angle, REAL, 0.0, INFINITY, __VA_ARGS__) \
     M(n_bins, WHOLE, 0, 100000, __VA_ARGS__) M(bin_start, REAL, -1e6, 1e6, __VA_ARGS__)                      \
     M(bin_width, REAL, 1e-9, 1e6, __VA_ARGS__) M(reach, REAL, 0.01, 0.3, __VA_ARGS__)                        \
-    M(tilted, WHOLE, 0, 1, __VA_ARGS__)
+    M(tilted, WHOLE, 0, 1, __VA_ARGS__) M(reference_speed, REAL, 1e-6, 10.0, __VA_ARGS__)
 #define OF_DAMAGE(M, ...)                                                                                   \
     M(speed, REAL, 0.0, INFINITY, __VA_ARGS__) M(wheel_radius, POSITIVE, 0.0, INFINITY, __VA_ARGS__)        \
     M(hardness, POSITIVE, 0.0, INFINITY, __VA_ARGS__) M(shear_yield, POSITIVE, 0.0, INFINITY, __VA_ARGS__)  \

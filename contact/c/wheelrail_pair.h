@@ -16,7 +16,7 @@ static int check_pair_options(const wr_pair_options *o) {
     TRY(aligned(o, A_options));
     if (o->size != (int64_t)sizeof *o) return bad(A_options, R_STRUCT);
     if (o->patch.size != (int64_t)sizeof o->patch) return bad(A_options, R_STRUCT);
-    TRY(check_members(o, A_patch_normal, A_pair_tilted));
+    TRY(check_members(o, A_patch_normal, A_pair_reference_speed));
     return check_damage(&o->damage, o, A_damage_speed);
 }
 
@@ -33,7 +33,8 @@ int wr_pair_default(wr_pair_options *o) {
                            .combine_angle = 0.17453292519943295,
                            .bin_width = 1e-3,
                            .damage = WR_DAMAGE_DEFAULTS,
-                           .reach = 0.06};
+                           .reach = 0.06,
+                           .reference_speed = WR_SLOWEST};
     TRY(wr_contact_default(&o->patch));
     o->patch.n_samples = 81;
     return 0;
@@ -162,6 +163,7 @@ static void set_motion(const wr_pair_options *o, Number motion[WR_MOTION_NUMBERS
     motion[WR_MOTION_MIRROR].f = (double)o->side;
     motion[WR_MOTION_REACH].f = o->reach;
     motion[WR_MOTION_TILTED].i = o->tilted;
+    motion[WR_MOTION_SLOWEST].f = o->reference_speed;
 }
 
 static Head *begin_pair(const wr_pair_options *o, int64_t kind, void *memory, size_t needed) {
@@ -275,7 +277,7 @@ int wr_pair_input_default(const wr_pair_options *o, double mu, double speed, dou
     TRY(check_number(load, A_load));
     TRY(aligned(input, A_input));
     wr_case surface;
-    TRY(wr_contact_case(&o->patch, mu, speed, &surface));
+    TRY(wr_contact_case(&o->patch, mu, fabs(speed), &surface));
     *input = (wr_pair_input){.size = sizeof *input, .height = WR_HEIGHT_LOAD, .amount = load};
     input->surface = surface;
     input->motion.vx = speed;

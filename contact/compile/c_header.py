@@ -100,6 +100,7 @@ def _constants() -> str:
         "WR_DEFAULT_NORMAL": f"WR_NORMAL_{DEFAULT_NORMAL.upper()}",
         "WR_DEFAULT_TANGENTIAL": f"WR_TANGENTIAL_{DEFAULT_TANGENTIAL.upper()}",
         "WR_LARGEST_CREEPAGE": records.LARGEST_CREEPAGE,
+        "WR_SLOWEST": records.SLOWEST,
         "WR_LARGEST_ANGLE": records.LARGEST_ANGLE,
         "WR_LARGEST_RAIL_ROLL": records.LARGEST_RAIL_ROLL,
         "WR_FORCE_X": LONGITUDINAL,
@@ -121,7 +122,17 @@ def _constants() -> str:
 
 
 #: Members of MOTION that an options struct sets.
-_MOTION_CONSTANTS = ("radius", "tape", "combine_distance", "combine_angle", "most_patches", "mirror", "reach", "tilted")
+_MOTION_CONSTANTS = (
+    "radius",
+    "tape",
+    "combine_distance",
+    "combine_angle",
+    "most_patches",
+    "mirror",
+    "reach",
+    "tilted",
+    "slowest",
+)
 
 
 def _damage_defaults() -> str:

@@ -8,7 +8,7 @@ import numpy as np
 
 from contact.errors import ContactError, require_number
 from contact.geometry.records import Irregularity, Pose, Velocity
-from contact.inputs.options import RADIUS
+from contact.inputs.options import RADIUS, REFERENCE_SPEED
 from contact.inputs.plausibility import USUAL, doubt_value
 from contact.instance.ownership import OwnsArrays, one_thread
 from contact.kernels.enumerations import Height, NoAnswer
@@ -17,7 +17,6 @@ from contact.kernels.records import GIVEN, SLOWEST
 
 Side = Literal["right", "left"]
 
-_REFERENCES = 1e-6, 10.0  # [m/s]
 MAX_PENETRATION = 2e-3  # [m] that of a wheel under 10 MN; a larger value has a wrong unit
 _ROLLING, _IDEAL = Velocity(), Irregularity()
 _Y, _TURNED, _LOAD, _SPEED, _SLIP = (USUAL[name] for name in ("pose.y", "pose.yaw", "wheel load", "speed", "slip"))
@@ -35,13 +34,13 @@ class Posed(OwnsArrays):
     rolls_back = True  # whether the forward speed may be negative
     space: Any  # arrays of the search: `Search` or `SurfaceSearch` of `contact.kernels.arrays`
 
-    def __init__(self, side: Side, nominal_radius: float, reference_speed: float = SLOWEST) -> None:
+    def __init__(self, side: Side, nominal_radius: float, reference_speed: float = REFERENCE_SPEED.usual) -> None:
         if side not in ("right", "left"):
             raise ContactError(f"side = {side!r} is neither 'right' nor 'left'")
         self.side: Side = side
         self._mirror = 1.0 if side == "right" else -1.0
         self.nominal_radius = RADIUS.require("nominal_radius", nominal_radius)
-        self.reference_speed = require_number("reference_speed", reference_speed, *_REFERENCES)
+        self.reference_speed = REFERENCE_SPEED.require("reference_speed", reference_speed)
         self._doubted = False
         self.told: set[str] = set()  # for what there was a ModelWarning
 
@@ -103,7 +102,9 @@ class Posed(OwnsArrays):
         if velocity is None:
             return True
         forward, spin = velocity.forward, velocity.spin
-        rolls = spin is None or (forward > 0.0 and abs(1.0 + spin * self.nominal_radius / forward) <= _SLIP.largest)
+        rolls = spin is None or (
+            abs(forward) > SLOWEST and abs(1.0 + spin * self.nominal_radius / forward) <= _SLIP.largest
+        )
         return rolls and abs(forward) <= _SPEED.largest
 
     def doubt(self, pose: Pose, velocity: Velocity | None, load: float | None, name: str = "load") -> None:
@@ -118,7 +119,7 @@ class Posed(OwnsArrays):
             found.append(doubt_value("wheel load", load, name))
         if velocity is not None:
             found.append(doubt_value("speed", velocity.forward, "velocity.forward"))
-        if velocity is not None and velocity.spin is not None and velocity.forward > 0.0:
+        if velocity is not None and velocity.spin is not None and abs(velocity.forward) > SLOWEST:
             slip = 1.0 + velocity.spin * self.nominal_radius / velocity.forward
             found.append(doubt_value("slip", slip, f"velocity.spin = {velocity.spin:g}: longitudinal creepage"))
         self._doubted = any(found)

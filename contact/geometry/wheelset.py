@@ -39,6 +39,7 @@ from contact.inputs.options import (
     GAUGE_POINT,
     MOST_PATCHES,
     RADIUS,
+    REFERENCE_SPEED,
 )
 from contact.inputs.separation import Separation
 from contact.instance import workspace
@@ -46,7 +47,7 @@ from contact.instance.ownership import one_thread, within
 from contact.kernels.arrays import Search
 from contact.kernels.geometry.prepare import facing, move, rail_origin, take_nodes
 from contact.kernels.geometry.settle import first_touch, settle
-from contact.kernels.records import SLOWEST, TAPE_FROM_FLANGE_BACK
+from contact.kernels.records import TAPE_FROM_FLANGE_BACK
 from contact.kernels.rows import Curve
 
 __all__ = ["Irregularity", "Pair", "Patch", "Pose", "Velocity", "contacts"]
@@ -123,7 +124,7 @@ class Pair(Posed):
         most_patches: int = MOST_PATCHES.usual,
         samples: int | ArrayLike = SAMPLES,
         material: Material = STEEL,
-        reference_speed: float = SLOWEST,
+        reference_speed: float = REFERENCE_SPEED.usual,
     ) -> None:
         for name, given in (("wheel", wheel), ("rail", rail)):
             if not isinstance(given, Profile) or given.kind != name:

@@ -173,6 +173,7 @@ typedef struct {
     wr_damage_parameters damage;
     double reach;   /* surfaces: distance before and behind the axle that is searched [m], 0.01 to 0.3 */
     int64_t tilted; /* surfaces: 1 if the frame of a patch follows the rail's normal in all directions, 0 if it turns about x */
+    double reference_speed; /* speed below which creepages refer to it [m/s], 1e-6 to 10 */
 } wr_pair_options;
 
 /* A profile in the convention of the right side, for either side: y is negative on the gauge side, where the flange lies, and
@@ -225,7 +226,7 @@ WR_API int wr_pair_size_surfaces(const wr_pair_options *options, const wr_surfac
                                  size_t *bytes);
 WR_API int wr_pair_init_surfaces(const wr_pair_options *options, const wr_surface *wheel, const wr_surface *rail,
                                  void *memory, size_t bytes);
-/* Steady rolling of a centred wheelset at this speed [m/s] under a load [N] that the normal forces carry. */
+/* Steady rolling of a centred wheelset at this speed [m/s], negative to roll backwards, under a load [N] that the normal forces carry. */
 WR_API int wr_pair_input_default(const wr_pair_options *options, double mu, double speed, double load,
                                  wr_pair_input *input);
 /* As wr_contact_doubts, of pose, speed, spin, load, friction and material.  A spin that does not belong to the speed is one. */

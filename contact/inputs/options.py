@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 from contact.errors import require_integer, require_number
 from contact.kernels.normal.strip_halfspace import MAX_ITERATIONS
-from contact.kernels.records import MAX_PATCHES
+from contact.kernels.records import MAX_PATCHES, SLOWEST
 
 
 class Whole(NamedTuple):
@@ -46,3 +46,5 @@ GAUGE_POINT = Real(0.014, 0.0, above=True)
 #: Patches that are closer than this [m], and whose angles differ by less [rad], share one plane. Most planes.
 COMBINE_DISTANCE, COMBINE_ANGLE = Real(8e-3, 0.0), Real(math.radians(10.0), 0.0)
 MOST_PATCHES = Whole(MAX_PATCHES, 1, MAX_PATCHES)
+#: Speed below which the creepages of a pair refer to it [m/s].
+REFERENCE_SPEED = Real(SLOWEST, 1e-6, 10.0)

@@ -69,7 +69,8 @@ class Component:
     derived, derived_by : tuple of str
         Outputs and inputs of the matrix of ``model_jacobian``.
     totals : mapping
-        Outputs that the wrapper integrates over time: name → one or two values whose product is the rate.
+        Outputs that the wrapper integrates: name → a rate and a speed of either sign, one of which may be None. With both the
+        rate is one per metre.
     accumulated : tuple of str
         Rows that add up over time. They come after all other rows, and their numbers are the end of the warm start, not part
         of the values. The wrapper keeps them only after a call of ``model_outputs`` with h > 0, so in model exchange they stay
@@ -90,7 +91,7 @@ class Component:
     lazy: tuple[str, ...] = ()
     derived: tuple[str, ...] = ()
     derived_by: tuple[str, ...] = ()
-    totals: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
+    totals: Mapping[str, tuple[str | None, str | None]] = field(default_factory=dict)
     accumulated: tuple[str, ...] = ()
     accumulates: str = ""
     exchange: bool = True

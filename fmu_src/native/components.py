@@ -21,9 +21,9 @@ from .component import Component, Resource, numbers
 WARNINGS: dict[int, str] = {s: f"status {s.name}: {s.message}" for s in (Status.OUT_OF_RANGE, Status.NOT_CONVERGED)}
 #: Outputs of a pair that are integrated over time: see `Component.totals`.
 TOTALS = {
-    "total.energy": ("power.friction",),
+    "total.energy": ("power.friction", None),
     "total.worn_volume": ("damage.archard_volume", "velocity.x"),
-    "total.distance": ("velocity.x",),
+    "total.distance": (None, "velocity.x"),
     "total.T_gamma": ("damage.T_gamma", "velocity.x"),
 }
 #: Rows and columns of the derivatives that kernels know (`Component.derived`): those of `contact.kernels.jacobian`, and those
@@ -98,7 +98,7 @@ def contact(points: int, elliptic: bool = False) -> Component:
         lazy=("creep_stiffness",),
         derived=CONTACT_DERIVED[0],
         derived_by=CONTACT_DERIVED[1],
-        totals={"total.energy": ("power.friction",), "total.worn_volume": ("damage.archard_volume", "speed")},
+        totals={"total.energy": ("power.friction", None), "total.worn_volume": ("damage.archard_volume", "speed")},
         warnings=WARNINGS,
     )
 

@@ -24,7 +24,6 @@ from contact.kernels.records import (
     DAMAGE_PARAMETERS,
     GIVEN,
     MAX_PATCHES,
-    SLOWEST,
     TOTAL,
     WHEEL_OFFSET,
 )
@@ -85,7 +84,7 @@ def parameter_setter(table: Table) -> Callable[..., Any]:
         motion.combine_distance = v[at.patches_combine_distance]
         motion.most_patches = int(v[at.patches_max])
         motion.mirror = 1.0 if v[at.side] == _RIGHT else -1.0
-        motion.origin_y, motion.origin_z, motion.slowest = origin_y, origin_z, SLOWEST
+        motion.origin_y, motion.origin_z, motion.slowest = origin_y, origin_z, v[at.reference_speed]
         read_material(v, rows, bench.case)
         choose(int(v[at.method_normal]), int(v[at.method_tangential]), bench.case[0])
         bench.search.case[0].G, bench.search.case[0].nu = bench.case[0].G, bench.case[0].nu
@@ -108,6 +107,7 @@ def step_solver(table: Table) -> Callable[..., Any]:
     def solve(values, v, piece, bench):
         """Solve for `v`, which are `values` as an array. `piece` is the size of the memory of a patch."""
         read_surface(v, rows, bench.case)
+        bench.case[0].speed = abs(bench.case[0].speed)
         given, _ = block.records(values, at.pose_y, 1, GIVEN)
         offset, _ = block.records(values, at.offset_x, 1, WHEEL_OFFSET)
         bench.offset[0] = offset[0]
@@ -149,7 +149,7 @@ def reporter(table: Table) -> Callable[..., Any]:
             for row in range(_N_PATCH_ROWS):
                 v[at.patch_n + PATCHES * row + k] = numbers[row]
         v[at.slip_ratio] = total.slip_area / total.area if total.area > 0.0 else 0.0
-        v[at.power_friction] = v[at.velocity_x] * total.power
+        v[at.power_friction] = abs(v[at.velocity_x]) * total.power
         v[at.rail_deflection_y], v[at.rail_deflection_z] = bench.rail[0].dy, bench.rail[0].dz
 
     return report
@@ -188,7 +188,7 @@ def differ(table: Table) -> Callable[..., Any]:
         load. Both sides of a difference are solved from a cold start, so that the tolerance of interacting strips, 1e-4, gives
         the same error on both sides.
         """
-        speed = max(v[at.velocity_x], SLOWEST)
+        speed = max(abs(v[at.velocity_x]), v[at.reference_speed])
         mu, N, G, area = (
             v[at.friction_coefficient],
             abs(v[at.force_z]),

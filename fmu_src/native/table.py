@@ -60,7 +60,7 @@ class _Writer:
             ),
             *(struct.pack("<qq", *by_number.get(i, (0, 0))) for i in range(last + 1)),
             *(
-                struct.pack("<qqq", self.at(total), self.at(rates[0]), self.at(rates[1]) if len(rates) > 1 else _NONE)
+                struct.pack("<qqq", self.at(total), *(_NONE if row is None else self.at(row) for row in rates))
                 for total, rates in component.totals.items()
             ),
             *(struct.pack("<qq", self.at(row.name), self.at(row.twin_of)) for row in (*given, *shown)),

@@ -213,7 +213,7 @@ def _press(v, parts, contacts, h, given):
         _take(v, starts, values, parts.scratch.wheels[w], w)
         for i in range(_N_TOTALS):
             rate = values[_RATES[i, 0]]
-            contacts.totals[i, w] += h * (rate if _ALONE[i] else rate * values[_RATES[i, 1]])
+            contacts.totals[i, w] += h * (rate if _ALONE[i] else rate * abs(values[_RATES[i, 1]]))
     return worst
 
 

@@ -176,7 +176,7 @@ def entries() -> dict[str, Callable[..., Any]]:
     def model_outputs(values, work, h, given):
         v = carray(values, (n_values,))
         bench, _, _ = arrange(v, work, given)
-        bench.ledger.settings[0].distance = v[at.velocity_x] * h
+        bench.ledger.settings[0].distance = abs(v[at.velocity_x]) * h
         failure = solve(values, v, memory.memory_size(size(v)), bench)
         if failure > 0:
             return failure

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from contact.kernels.records import SLOWEST
 from .. import doubts
 from ..variables import Table
 from .values import SlaveValues
@@ -30,5 +31,5 @@ class Doubting:
         x = values.numbers[place]
         if more:
             other, factor = (values.numbers[one.start] for one in more)
-            x = 1.0 + x * factor / other if other > 0.0 else 0.0
+            x = 1.0 + x * factor / other if abs(other) > SLOWEST else 0.0
         return abs(x) > rule.usual.largest or 0.0 < abs(x) < rule.usual.least

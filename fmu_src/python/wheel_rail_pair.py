@@ -46,6 +46,7 @@ class WheelRailPairSlave(TableSlave):
         before = memory.copy() if step_size > 0.0 else np.zeros_like(memory)
         memory[:] = before
         motion = [values[name] for name in _MOTION]
+        speed = abs(values["velocity.x"])
         bins = pair.bench.ledger.bins
         bins[:] = np.reshape([values[name] for name in ACCUMULATED], (2, -1, BINS)) if bins.size else 0.0
         try:
@@ -55,12 +56,12 @@ class WheelRailPairSlave(TableSlave):
                 irregularity=Irregularity(*motion[10:]),
                 **_carried(values),
                 friction=friction(values),
-                distance=values["velocity.x"] * step_size,
+                distance=speed * step_size,
                 rail=_rail(values),
                 offset=WheelOffset(*(values[name] for name, *_ in OFFSET)),
             )
             rows = {name: getattr(solution.damage, member) for name, member in DAMAGE_OUTPUTS.items()}
-            power, worn = (values["velocity.x"] * x for x in (solution.power_per_metre, rows["damage.archard_volume"]))
+            power, worn = (speed * x for x in (solution.power_per_metre, rows["damage.archard_volume"]))
             rows |= {
                 **{f"force.{axis}": float(x) for axis, x in zip("xyz", solution.force, strict=True)},
                 **{f"moment.{axis}": float(x) for axis, x in zip("xyz", solution.moment, strict=True)},
@@ -82,8 +83,8 @@ class WheelRailPairSlave(TableSlave):
                 "rail.deflection_z": solution.deflection[1],
                 "total.energy": values["total.energy"] + power * step_size,
                 "total.worn_volume": values["total.worn_volume"] + worn * step_size,
-                "total.distance": values["total.distance"] + values["velocity.x"] * step_size,
-                "total.T_gamma": values["total.T_gamma"] + rows["damage.T_gamma"] * values["velocity.x"] * step_size,
+                "total.distance": values["total.distance"] + speed * step_size,
+                "total.T_gamma": values["total.T_gamma"] + rows["damage.T_gamma"] * speed * step_size,
             }
             if bins.size:
                 rows |= zip(ACCUMULATED, bins.reshape(-1, BINS).tolist(), strict=True)
@@ -134,6 +135,7 @@ class WheelRailPairSlave(TableSlave):
                 most_patches=values["patches.max"],
                 samples=values["resolution.n_samples"],
                 material=material,
+                reference_speed=values["reference_speed"],
             )
             self.pair = WheelRailPair(
                 geometry,

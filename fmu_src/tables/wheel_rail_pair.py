@@ -8,8 +8,16 @@ from functools import cache
 from contact import friction
 from contact.accumulation import MAXIMA, SUMS
 from contact.geometry.wheelset import SAMPLES
-from contact.inputs.options import COMBINE_ANGLE, COMBINE_DISTANCE, FLANGE_BACK, GAUGE, GAUGE_POINT, RADIUS
-from contact.kernels.records import LARGEST_ANGLE, LARGEST_RAIL_ROLL, SLOWEST
+from contact.inputs.options import (
+    COMBINE_ANGLE,
+    COMBINE_DISTANCE,
+    FLANGE_BACK,
+    GAUGE,
+    GAUGE_POINT,
+    RADIUS,
+    REFERENCE_SPEED,
+)
+from contact.kernels.records import LARGEST_ANGLE, LARGEST_RAIL_ROLL
 from ..variables import Enumeration, Limits, Table, Variable, output, parameter, signal, taken
 from . import solver
 
@@ -53,7 +61,11 @@ MOTION = (
     ("pose.z", "m", "Height of the centre, positive down, 0 with both tape circles on the plane of the rails' tops"),
     ("pose.roll", "rad", "Roll angle, positive lowers the right wheel"),
     ("pose.yaw", "rad", "Yaw angle, clockwise seen from above"),
-    ("velocity.x", "m/s", f"Forward speed; creepages below {SLOWEST:g} m/s refer to {SLOWEST:g} m/s"),
+    (
+        "velocity.x",
+        "m/s",
+        "Forward speed, negative when rolling backwards; creepages refer to its magnitude, but at least to reference_speed",
+    ),
     ("velocity.y", "m/s", "Lateral velocity of the centre"),
     ("velocity.z", "m/s", "Vertical velocity of the centre"),
     ("velocity.roll", "rad/s", "Roll rate"),
@@ -87,7 +99,7 @@ _LIMITS: dict[str, Limits] = {
     "pose.yaw": {"minimum": -LARGEST_ANGLE, "maximum": LARGEST_ANGLE},
     "irregularity.roll": {"minimum": -LARGEST_RAIL_ROLL, "maximum": LARGEST_RAIL_ROLL},
     **{f"offset.{angle}": {"minimum": -LARGEST_ANGLE, "maximum": LARGEST_ANGLE} for angle in ("roll", "pitch", "yaw")},
-    "velocity.x": {"minimum": 0.0, "nominal": 10.0},
+    "velocity.x": {"nominal": 10.0},
 }
 _SPEED = 20.0
 _STARTS = {"velocity.x": _SPEED, "velocity.spin": -_SPEED / RADIUS.usual}
@@ -223,6 +235,12 @@ def parameters(inclination: float) -> Iterable[Variable]:
         yield parameter(
             f"rail.preload_{axis}", f"{way} external force on the rail on springs", unit="N", start=0.0, nominal=1e3
         )
+    yield parameter(
+        "reference_speed",
+        "Speed below which creepages refer to it; there a wheel resists sliding like a damper, so an axle can stop and stand",
+        unit="m/s",
+        **taken(REFERENCE_SPEED),
+    )
 
 
 def inputs() -> Iterable[Variable]:
@@ -268,7 +286,14 @@ def outputs() -> Iterable[Variable]:
     yield output("power.friction", "Frictional power", unit="W", minimum=0.0, nominal=1e3)
     yield from solver.damage()
     yield from solver.status_and_totals()
-    yield output("total.distance", "Distance rolled since start", unit="m", start=0.0, minimum=0.0, depends=())
+    yield output(
+        "total.distance",
+        "Distance rolled since start, forwards and backwards",
+        unit="m",
+        start=0.0,
+        minimum=0.0,
+        depends=(),
+    )
     yield output(
         "total.T_gamma", "Wear number times distance since start", unit="J", start=0.0, minimum=0.0, depends=()
     )

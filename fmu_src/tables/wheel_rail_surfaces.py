@@ -40,7 +40,7 @@ def table() -> Table:
         "are in resources. Contact search, every patch, creep forces and damage as in WheelRailPair. Forces act on the wheel. "
         "Track frame: x forward, y to the right, z down. As co-simulation has no feedthrough, the outputs after a step belong "
         "to the inputs before it: one communication step late.",
-        [*_parameters(), *pair.inputs(), *_place(), *(row for row in pair.outputs() if row.name not in ABSENT)],
+        [*_parameters(), *_inputs(), *_place(), *(row for row in pair.outputs() if row.name not in ABSENT)],
         step_size=1e-3,
     )
 
@@ -59,6 +59,12 @@ def _parameters() -> Iterable[Variable]:
         nominal=0.1,
     )
     yield parameter("surfaces.frame", "Frame of a patch", enumeration=FRAME, start="AboutX")
+
+
+def _inputs() -> Iterable[Variable]:
+    """Yield the inputs of the pair. On surfaces that change along the way a wheel rolls forward only."""
+    for row in pair.inputs():
+        yield replace(row, minimum=0.0, description="Forward speed") if row.name == "velocity.x" else row
 
 
 def _place() -> Iterable[Variable]:

@@ -31,7 +31,7 @@ PAIR_OPTIONS = _struct(
     ("size", np.int64), ("patch", OPTIONS), ("side", np.int64), ("most_patches", np.int64),
     *((n, float) for n in _LENGTHS),
     ("n_bins", np.int64), ("bin_start", float), ("bin_width", float), ("damage", DAMAGE_PARAMETERS),
-    ("reach", float), ("tilted", np.int64),
+    ("reach", float), ("tilted", np.int64), ("reference_speed", float),
 )  # fmt: skip
 INPUT = _struct(
     ("size", np.int64), ("height", np.int64), ("amount", float), ("motion", GIVEN), ("surface", CASE),

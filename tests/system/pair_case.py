@@ -93,7 +93,7 @@ def expected(s: PairSolution, speed: float) -> dict[str, float]:
         "patches.count": len(s.contacts),
         "patches.area": s.area,
         "slip.ratio": s.slip_ratio,
-        "power.friction": speed * s.power_per_metre,
+        "power.friction": abs(speed) * s.power_per_metre,
         "damage.T_gamma": damage.T_gamma,
         "damage.wear_rate_pearce_sherratt": damage.pearce_sherratt,
         "damage.index_burstow": damage.burstow,
@@ -157,7 +157,8 @@ def random_case(seed: int) -> tuple[dict[str, float], WheelRailPair]:
     """Return values of the FMU and a solver with the same parameters."""
     rng = np.random.default_rng(seed)
     left, by_load = bool(rng.integers(2)), rng.random() < 0.6
-    V = rng.uniform(2.0, 80.0)
+    V = rng.uniform(2.0, 80.0) * (-1.0 if seed % 7 == 3 else 1.0)  # some roll backwards
+    reference = 20.0 if seed % 5 == 2 else 1e-3
     radius, gauge, inclination = rng.uniform(0.3, 0.6), 1.435 + rng.uniform(-3e-3, 6e-3), rng.uniform(0.0, 0.06)
     gauge_point, flange_back = rng.uniform(0.010, 0.016), 1.360 + rng.uniform(-2e-3, 2e-3)
     distance, angle, most = rng.uniform(0.0, 1e-2), rng.uniform(0.0, 0.4), int(rng.integers(1, 4))
@@ -181,6 +182,7 @@ def random_case(seed: int) -> tuple[dict[str, float], WheelRailPair]:
         most_patches=most,
         samples=samples,
         material=material,
+        reference_speed=reference,
     )
     pose, rail = rng.uniform((-9e-3, -0.02, -0.03), (9e-3, 0.02, 0.03)), rng.uniform(-1, 1, 3) * (1e-3, 1e-3, 5e-3)
     at = Pose(pose[0], 0.0, pose[1], pose[2])
@@ -205,6 +207,7 @@ def random_case(seed: int) -> tuple[dict[str, float], WheelRailPair]:
         "resolution.n_strips": n_strips,
         "resolution.n_elements": n_elements,
         "resolution.n_samples": samples,
+        "reference_speed": reference,
         "pose.y": pose[0],
         "pose.z": z,
         "pose.roll": pose[1],

@@ -16,6 +16,7 @@ from contact.results import BEND
 PAIR = [
     ({"velocity.x": 40.0}, "velocity.spin = -43.4783: the longitudinal creepage is too large: "),
     ({"velocity.spin": 43.4783}, "velocity.spin = 43.4783: the longitudinal creepage is too large: "),
+    ({"velocity.x": -20.0}, "velocity.spin = -43.4783: the longitudinal creepage is too large: "),
     ({"friction.coefficient": 35.0}, "friction.coefficient = 35: "),
     ({"load.normal_force": 80.0}, "load.normal_force = 80: "),
     ({"velocity.x": 200.0, "velocity.spin": -434.0}, "velocity.x = 200: "),

@@ -36,6 +36,7 @@ PAIRS = {
     "flange": {"pose.y": 7.5e-3, "pose.yaw": 5e-3},
     "both": {"pose.y": 6.4e-3, "load.kind": 3},
     "standstill": {"velocity.x": 0.0, "velocity.spin": 0.0},
+    "backwards": {"velocity.x": -20.0, "velocity.spin": 44.0, "pose.yaw": 2e-3},
     "lift-off": {"load.normal_force": 0.0},
 }
 

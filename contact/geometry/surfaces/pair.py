@@ -24,7 +24,7 @@ from contact.halfspace.lattice import Lattice
 from contact.halfspace.norm import norm
 from contact.inputs.creepage import Creepage
 from contact.inputs.material import STEEL, Material
-from contact.inputs.options import COMBINE_DISTANCE, FLANGE_BACK, GAUGE, GAUGE_POINT, RADIUS
+from contact.inputs.options import COMBINE_DISTANCE, FLANGE_BACK, GAUGE, GAUGE_POINT, RADIUS, REFERENCE_SPEED
 from contact.instance import workspace
 from contact.instance.ownership import one_thread, within
 from contact.kernels.enumerations import Height
@@ -32,7 +32,7 @@ from contact.kernels.geometry.elements import fill_distance, find
 from contact.kernels.geometry.prepare import move
 from contact.kernels.geometry.section import AWAY
 from contact.kernels.geometry.settle import DEEPEST
-from contact.kernels.records import MAX_PATCHES, SLOWEST
+from contact.kernels.records import MAX_PATCHES
 
 Range = tuple[float, float, float, float]
 ROWS = COLUMNS = 60
@@ -154,7 +154,7 @@ class SurfacePair(Posed):
         columns: int = COLUMNS,
         spacing: float | tuple[float, float] | None = None,
         material: Material = STEEL,
-        reference_speed: float = SLOWEST,
+        reference_speed: float = REFERENCE_SPEED.usual,
     ) -> None:
         super().__init__(side, nominal_radius, reference_speed)
         if rail_origin is None:

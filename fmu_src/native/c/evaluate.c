@@ -72,7 +72,7 @@ static double unusual(const Instance *instance, const Doubt *d, const double *va
 {
     for (*at = (size_t)d->value; *at < (size_t)(d->value + d->n); ++*at) {
         double x = values[*at], size;
-        if (d->other != NONE) x = values[d->other] > 0.0 ? 1.0 + x * values[d->factor] / values[d->other] : 0.0;
+        if (d->other != NONE) x = fabs(values[d->other]) > SLOWEST ? 1.0 + x * values[d->factor] / values[d->other] : 0.0;
         size = fabs(x);
         if ((size > d->largest || (size > 0.0 && size < d->least)) && is_used(&instance->table.variables[*at], values)) return x;
     }
@@ -164,7 +164,8 @@ int64_t evaluate(const Instance *instance, double *values, double h)
 
 static double rate(const Total *t, const double *values)
 {
-    return t->other == ALONE ? values[t->factor] : values[t->other] * values[t->factor];
+    double speed = t->speed == NONE ? 1.0 : fabs(values[t->speed]);
+    return t->rate == NONE ? speed : speed * values[t->rate];
 }
 
 /* Compute the outputs for the present values and advance states and totals by h. With `warm` start from the last step. */

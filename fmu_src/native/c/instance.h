@@ -83,10 +83,10 @@ typedef struct {
     int64_t rows, most;
 } Resource;
 
-/* An output that is integrated over time: its rate is the product of two values, or one value. */
-enum { ALONE = -1 };
+/* An output that is integrated over time, by a rate, over the way by a speed of either sign, or by both multiplied.
+ * What is missing is NONE. */
 typedef struct {
-    int64_t total, factor, other;
+    int64_t total, rate, speed;
 } Total;
 
 /* A variable that stands for another one, whose type some hosts do not know. A choice that is not 0 is the value of its
@@ -102,14 +102,15 @@ typedef struct {
     uint64_t text;
 } Message;
 
-/* A number that is allowed but not usual: the value, of an array any of its n ones, or, of a wheel that moves forward, the
- * slip 1 + value * factor / other. Zero is usual. */
+/* A number that is allowed but not usual: the value, of an array any of its n ones, or, of a wheel that moves, the slip
+ * 1 + value * factor / other. Zero is usual. */
 typedef struct {
     int64_t value, n, other, factor;
     double least, largest; /* magnitudes */
     uint64_t text;
 } Doubt;
 enum { MOST_DOUBTS = 64 };
+#define SLOWEST 1e-3 /* speed [m/s] below which a wheel stands, so its slip says nothing */
 
 /* How model.bin begins, after its magic bytes and its checksum. */
 typedef struct {

@@ -74,6 +74,7 @@ static const char *fault(const Table *t)
     const uint64_t n = h->n_values, every = n + h->n_accumulated + h->n_fields + 1;
 #define IS_TEXT(place) ((place) < h->n_text)
 #define IS_VALUE(place) ((uint64_t)(place) < n)
+#define IS_VALUE_OR_NONE(place) ((place) == NONE || IS_VALUE(place))
     if (!h->n_text || t->text[h->n_text - 1]) return "texts";
     if (!IS_TEXT(h->guid) || !IS_TEXT(h->name) || !IS_TEXT(h->kind)) return "the head";
     if (!n || h->n_parameters > n || every > UINT32_MAX) return "the sizes";
@@ -101,8 +102,8 @@ static const char *fault(const Table *t)
         if (!IS_TEXT(t->messages[i].text) || t->messages[i].category < 0 || t->messages[i].category > LOG_DISCARD ||
             t->messages[i].category == 3) return "messages";
     for (uint64_t i = 0; i < h->n_totals; i++)
-        if (!IS_VALUE(t->totals[i].total) || !IS_VALUE(t->totals[i].factor) ||
-            (t->totals[i].other != ALONE && !IS_VALUE(t->totals[i].other))) return "totals";
+        if (!IS_VALUE(t->totals[i].total) || !IS_VALUE_OR_NONE(t->totals[i].rate) || !IS_VALUE_OR_NONE(t->totals[i].speed))
+            return "totals";
     for (uint64_t i = 0; i < h->n_choices; i++)
         if (!IS_VALUE(t->choices[i].twin) || !IS_VALUE(t->choices[i].of)) return "choices";
     for (uint64_t i = 0; i < h->n_mirrors; i++)
