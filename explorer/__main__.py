@@ -46,7 +46,7 @@ def page(wasm: bytes) -> str:
         "BUNDLE": json.dumps(content, ensure_ascii=False).replace("</", "<\\/"),
         **{
             name.upper(): (_FOLDER / "page" / f"{name}.js").read_text(encoding="utf-8")
-            for name in ("solver", "worker", "profile", "draw", "page")
+            for name in ("solver", "worker", "false_rows", "profile", "draw", "page")
         },
     }
     text = (_FOLDER / "page" / "index.html").read_text(encoding="utf-8")

@@ -6,6 +6,8 @@
 
 class ProfileError extends Error {}
 
+const whichAreFalse = typeof require === "undefined" ? falseRows : require("./false_rows.js").falseRows;
+
 const mm = value => `${Number((1e3 * value).toPrecision(3))} mm`;
 const median = values => { const s = [...values].sort((a, b) => a - b), n = s.length; return n % 2 ? s[(n - 1) / 2] : 0.5 * (s[n / 2 - 1] + s[n / 2]); };
 const distance = (p, q) => Math.hypot(p[0] - q[0], p[1] - q[1]);
@@ -43,6 +45,17 @@ function rowsOf(text, findings) {
   if (left) findings.push(`${left} line${left > 1 ? "s" : ""} without two numbers left out`);
   if (rows.length < 10) throw new ProfileError("a profile needs at least ten rows with two numbers, y and z");
   return rows;
+}
+
+/* The rows without those that are no points of the profile, like 0 0 or -999 -999 (false_rows.js). */
+function trueRows(rows, findings) {
+  const wrong = whichAreFalse(rows), left = rows.filter((_, i) => !wrong[i]), out = rows.filter((_, i) => wrong[i]);
+  if (out.length) {
+    const shown = out.slice(0, 3).map(row => row.join(" ")).join(", ");
+    findings.push(`${out.length} of ${rows.length} rows are no points of the profile and left out: ${shown}${out.length > 3 ? " …" : ""}`);
+  }
+  if (left.length < 10) throw new ProfileError(`${left.length} rows are points of a profile; ten are needed`);
+  return left;
 }
 
 /* Points in metres: the unit in which a wheel or a rail has a possible width. */
@@ -262,7 +275,7 @@ function readProfile(content, asked, rules) {
     return { kind, numbers, findings };
   }
   if (content.byteLength > rules.largest_file) throw new ProfileError("a profile has some hundred kB; this file is larger than 20 MB");
-  let points = oneScan(inMetres(rowsOf(textOf(content), findings), rules, findings), rules, findings);
+  let points = oneScan(inMetres(trueRows(rowsOf(textOf(content), findings), findings), rules, findings), rules, findings);
   const [looks] = appearance(points, rules), kind = looks ?? asked;
   if (!kind) throw new ProfileError("the points could be a wheel or a rail: open the file with “wheel …” or “rail …”");
   if (asked && looks && asked !== looks)

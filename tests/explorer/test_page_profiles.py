@@ -11,6 +11,7 @@ import numpy as np
 import pytest
 
 from contact.geometry import inspection, profile
+from contact.geometry.false_rows import false_rows
 from explorer.bundle import rules
 
 pytestmark = pytest.mark.skipif(not shutil.which("node"), reason="needs node")
@@ -166,3 +167,60 @@ def test_text_is_read_as_the_library_reads_it(encoding, change, tmp_path):
     path = written(tmp_path, SHAPES["wheel"].y, SHAPES["wheel"].z)
     path.write_bytes(path.read_text().replace(*change).encode(encoding))
     assert points(opened(path)).shape[1] == SHAPES["wheel"].y.size
+
+
+#: What devices write where nothing was seen, for y and z of the row that is missing.
+CODES = ("0 0", "-999 -999", "9999 9999", "{y} -999", "32767 32767", "1e30 1e30", "{y} 0", "0 {z}")
+
+
+@pytest.mark.parametrize("kind", ["wheel", "rail"])
+@pytest.mark.parametrize("code", CODES)
+@pytest.mark.parametrize("many", [1, 5, 25])
+def test_false_rows_are_dropped_and_told_as_the_library_does(kind, code, many, tmp_path):
+    shape, rng = SHAPES[kind], np.random.default_rng(many)
+    path = written(tmp_path, shape.y, shape.z, decimals=5)
+    lines = path.read_text().splitlines()
+    away = np.flatnonzero((np.abs(shape.y) > 2e-3) & (np.abs(shape.z) > 2e-3))[
+        3:-3
+    ]  # a 0 there is no point of the profile
+    for k in rng.choice(away, many, replace=False):
+        y, z = lines[k].split()
+        lines[k] = code.format(y=y, z=z)
+    path.write_text("\n".join(lines))
+    rows = np.array([line.split() for line in lines], float)
+    dropped = int(false_rows(rows).sum())
+    assert dropped >= 0.8 * many
+    found = opened(path, kind)
+    assert any(text.startswith(f"{dropped} of {len(lines)} rows are no points") for text in found["findings"]), found[
+        "findings"
+    ]
+    assert not any("scan" in text for text in found["findings"])
+    got = points(found)
+    apart = np.abs(got[1] - np.interp(got[0], shape.y, shape.z - (shape.z.min() if kind == "rail" else 0.0)))
+    assert np.median(apart) < 1e-6
+
+
+def test_the_page_finds_the_same_false_rows_as_the_library_row_by_row(tmp_path):
+    """Random codes, runs, ends, repeated points and several scans; also scans without a fault."""
+    cases = []
+    for seed in range(300):
+        rng = np.random.default_rng(seed)
+        shape = SHAPES[("wheel", "rail")[seed % 2]]
+        rows = 1e3 * np.column_stack((shape.y, shape.z))[:: int(rng.integers(1, 5))].round(3)
+        if seed % 7 == 0:
+            rows = np.concatenate((rows, rows[:: (-1) ** seed]))
+        for _ in range(int(rng.integers(0, 4))):
+            begin, long = int(rng.integers(0, len(rows))), int(rng.integers(1, 12))
+            wild = ([0.0, 0.0], [-999.0, -999.0], [1e30, 5.0], [np.nan, 0.0], rows[int(rng.integers(0, len(rows)))])
+            code = np.array(wild[int(rng.integers(0, len(wild)))])
+            rows[begin : begin + long] = np.where(np.isnan(code), rows[begin : begin + long], code)
+        cases.append(rows)
+    (tmp_path / "cases.json").write_text(json.dumps([rows.tolist() for rows in cases]))
+    script = "const { falseRows } = require(process.argv[1]), cases = JSON.parse(require('fs').readFileSync(process.argv[2]));"
+    script += "console.log(JSON.stringify(cases.map(falseRows)))"
+    program = Path(__file__).parents[2] / "explorer" / "page" / "false_rows.js"
+    command = ["node", "-e", script, str(program), str(tmp_path / "cases.json")]
+    found = json.loads(subprocess.run(command, capture_output=True, text=True, check=True).stdout)
+    wanted = [false_rows(rows) for rows in cases]
+    assert sum(one.any() for one in wanted) > 100
+    assert [seed for seed, (one, other) in enumerate(zip(found, wanted, strict=True)) if one != other.tolist()] == []
