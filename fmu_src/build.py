@@ -197,7 +197,10 @@ def _validate(arguments: argparse.Namespace, paths: Sequence[Path], model: Model
     for path in paths:
         is_python = path.parent.name == "python"
         exchange = not is_python and model.component().exchange
-        made = validation.write(path, model.table, arguments.validation, exchange=exchange, force=arguments.force)
+        of = model.options.get("vehicle")
+        made = validation.write(
+            path, model.table, arguments.validation, exchange=exchange, force=arguments.force, vehicle=of
+        )
         for place in made:
             print(f"{model.table.name}, validation set: {place}")
         if not made:

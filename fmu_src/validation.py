@@ -6,6 +6,7 @@ written. `contact fmu-check` compares what another tool wrote with it.
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 from typing import Any
 
@@ -14,8 +15,10 @@ from numpy.typing import NDArray
 
 from contact.arrays import Array
 from contact.errors import ContactError
+from . import validation_mirror as mirror
 from .tables.solver import LEAST_LOAD
-from .validation_cases import SCENES, Case, case, columns, has_case
+from .validation_cases import SCENES, Case, case, columns
+from .validation_momentum import momentum
 from .variables import Causality, Table
 
 KINDS = {"cs": "CoSimulation", "me": "ModelExchange"}
@@ -42,50 +45,63 @@ What physics says of the reference, each checked when it was written: {physics}.
 """
 
 
-def write(fmu: Path, table: Table, folder: Path, *, exchange: bool, force: bool) -> list[Path]:
-    """Write the sets of an FMU file below `folder` and return their folders.
+def write(
+    fmu: Path, table: Table, folder: Path, *, exchange: bool, force: bool, vehicle: str | None = None
+) -> list[Path]:
+    """Write the sets of an FMU file below `folder` and return their folders. `vehicle` is that of the FMU of one.
 
     Raises
     ------
     ContactError
         If there is a set already and not `force`, or if the answers of the FMU contradict physics.
     """
-    if not has_case(table):
-        return []
     from fmpy import read_model_description
 
     version = read_model_description(str(fmu)).fmiVersion.split(".")[0]
+    if version == "3" and table.name == "OpenVehicle":
+        return []  # its inputs are arrays there, which the form has no columns for
     packaging = "python" if "python" in fmu.parts[-3:] else "native"
     made = []
     for short in KINDS if exchange else ("cs",):
         place = folder / packaging / f"fmi{version}" / short / table.name
         if place.exists() and any(place.iterdir()) and not force:
             raise ContactError(f"{place} exists; --force overwrites it")
-        _write(fmu, table, place, short, version)
+        _write(fmu, table, place, short, version, vehicle or "")
         made.append(place)
     return made
 
 
-def _write(fmu: Path, table: Table, place: Path, short: str, version: str) -> None:
+def _write(fmu: Path, table: Table, place: Path, short: str, version: str, vehicle: str) -> None:
     import fmpy
 
-    given, answer = _run(fmu, table, short)
-    if wrong := contradictions(table, answer):
+    given, answer = _run(fmu, table, short, vehicle)
+    wrong, physics = contradictions(table, answer), laws(table)
+    if mirror.has_mirror(table):
+        turned = given._replace(inputs=mirror.mirrored(given.inputs))
+        wrong += mirror.unlike(answer, _simulated(fmu, table, turned, short, mirror.starts(table)), tolerance)
+        physics = [*physics, "mirrored inputs have mirrored answers"]
+    if table.name == "OpenVehicle" and (found := momentum(fmu, vehicle, given, answer)) is not None:
+        wrong += found
+        physics = [*physics, "the momentum of all bodies grows by the forces and the weight"]
+    if wrong:
         raise ContactError(f"{fmu.name}, {KINDS[short]}: {wrong[0]}")
     place.mkdir(parents=True, exist_ok=True)
-    name = table.name
-    names = [one for one in columns(table, Causality.OUTPUT) if one in answer]
+    name, scalar = table.name, _scalars(fmu)
+    names = [one for one in columns(table, Causality.OUTPUT) if one in answer and one in scalar and "," not in one]
+    arrays = {one: values for one, values in answer.items() if one not in (*names, "time")}
     _csv(place / f"{name}_in.csv", given.time, _inputs(table, given, _scalars(fmu)))
     _csv(place / f"{name}_ref.csv", answer["time"], {one: answer[one] for one in names})
+    if arrays:
+        _csv(place / f"{name}_arrays.csv", answer["time"], arrays, ";")
     options = {"StartTime": 0.0, "StopTime": given.time[-1], "StepSize": given.step, "RelTol": 1e-6}
     (place / f"{name}_ref.opt").write_text(
         "".join(f"{k},{v!r}\n" for k, v in _floats(options).items()), encoding="utf-8"
     )
-    rows = [f"{one},{tolerance(one, answer[one])!r}\n" for one in names]
+    rows = [f'"{one}",{tolerance(one, answer[one])!r}\n' for one in (*names, *arrays)]
     (place / "tolerances.csv").write_text("output,tolerance\n" + "".join(rows), encoding="utf-8")
     text = _README.format(
         name=name, version=version, kind=KINDS[short], file=fmu.name, step=given.step, stop=given.time[-1],
-        n=len(given.time), fmpy=fmpy.__version__, scenes=_scenes(table, given), physics="; ".join(laws(table)),
+        n=len(given.time), fmpy=fmpy.__version__, scenes=_scenes(table, given), physics="; ".join(physics),
     )  # fmt: skip
     (place / "README.md").write_text(text, encoding="utf-8")
 
@@ -114,17 +130,20 @@ def _scalars(fmu: Path) -> set[str]:
     return {v.name for v in read_model_description(str(fmu)).modelVariables if not v.dimensions}
 
 
-def _run(fmu: Path, table: Table, short: str) -> tuple[Case, dict[str, Array]]:
+def _run(fmu: Path, table: Table, short: str, vehicle: str) -> tuple[Case, dict[str, Array]]:
     """Return the inputs and the answers. On profiles whose flange lies nearer the way to it is shorter."""
     for amplitude in (1.0, 0.7, 0.4, 0.1):
-        given = case(table, amplitude)
+        given = case(table, amplitude, vehicle)
         answer = _simulated(fmu, table, given, short)
         if len(answer["time"]) == len(given.time):
             return given, answer
     raise ContactError(f"{fmu.name}: the validation run ended at {answer['time'][-1]:g} s of {given.time[-1]:g} s")
 
 
-def _simulated(fmu: Path, table: Table, given: Case, short: str) -> dict[str, Array]:
+def _simulated(
+    fmu: Path, table: Table, given: Case, short: str, starts: dict[str, float] | None = None
+) -> dict[str, Array]:
+    """Return the answers with these starts: all outputs that are Reals, those of arrays by the names of their elements."""
     from fmpy import simulate_fmu
 
     scalar = _scalars(fmu)
@@ -133,17 +152,24 @@ def _simulated(fmu: Path, table: Table, given: Case, short: str) -> dict[str, Ar
     signals["time"] = given.time
     for name, values in varied.items():
         signals[name] = values
-    outputs = [name for name in columns(table, Causality.OUTPUT) if name in scalar]
+    names = columns(table, Causality.OUTPUT)
+    arrays: dict[str, list[str]] = {}  # of FMI 3.0: name → names of the elements
+    for name in names:
+        if name not in scalar:
+            arrays.setdefault(re.sub(r"\[[\d,]*\]", "", name), []).append(name)
     result = simulate_fmu(
-        str(fmu), fmi_type=KINDS[short], input=signals, output=outputs, start_time=0.0, stop_time=given.time[-1],
-        step_size=given.step, output_interval=given.step, solver="Euler",
+        str(fmu), fmi_type=KINDS[short], input=signals, output=[*(n for n in names if n in scalar), *arrays], start_time=0.0,
+        stop_time=given.time[-1], step_size=given.step, output_interval=given.step, solver="Euler", start_values=starts or {},
     )  # fmt: skip
-    return {name: np.asarray(result[name], float) for name in result.dtype.names}
+    found = {name: np.asarray(result[name], float) for name in result.dtype.names if name not in arrays}
+    for array, elements in arrays.items():
+        found |= zip(elements, np.asarray(result[array], float).reshape(len(result), -1).T, strict=True)
+    return found
 
 
-def _csv(path: Path, time: Array, rows: dict[str, Array]) -> None:
-    lines = [",".join(f'"{name}"' for name in ("time", *rows))]
-    lines += [",".join(repr(float(x)) for x in row) for row in zip(time, *rows.values(), strict=True)]
+def _csv(path: Path, time: Array, rows: dict[str, Array], separator: str = ",") -> None:
+    lines = [separator.join(f'"{name}"' for name in ("time", *rows))]
+    lines += [separator.join(repr(float(x)) for x in row) for row in zip(time, *rows.values(), strict=True)]
     path.write_text("\n".join(lines) + "\n", encoding="utf-8")
 
 

@@ -6,6 +6,8 @@ import math
 from typing import NamedTuple
 
 import numpy as np
+from contact_models.vehicle.assembly import assemble
+from contact_models.vehicle.declared import read
 
 from contact.arrays import Array
 from .variables import Causality, Kind, Table
@@ -29,9 +31,12 @@ class Case(NamedTuple):
     inputs: dict[str, Array]
 
 
-def case(table: Table, amplitude: float = 1.0) -> Case:
-    """Return the inputs for an FMU. `amplitude` scales the way to the flange, for profiles whose flange lies nearer."""
-    step, n = (1e-3, 200) if table.name in ("Vehicle", "Wheelset") else (0.01, 200)
+def case(table: Table, amplitude: float = 1.0, vehicle: str = "") -> Case:
+    """Return the inputs for an FMU.
+
+    `amplitude` scales the way to the flange, for profiles whose flange lies nearer. `vehicle` is that of an OpenVehicle.
+    """
+    step, n = (1e-3, 200) if table.name in ("Vehicle", "OpenVehicle", "Wheelset") else (0.01, 200)
     time = step * np.arange(n + 1, dtype=np.float64)
     share: Array = time / time[-1]
 
@@ -79,16 +84,29 @@ def case(table: Table, amplitude: float = 1.0) -> Case:
             "friction.coefficient": mu * through((0.0, 1.0), (0.5, 0.5), (1.0, 1.0)),
             "speed": np.full(n + 1, speed),
         }
+    elif table.name == "OpenVehicle":
+        found = _on_given_forces(vehicle, share)
     return Case(step, time, found)
 
 
-def has_case(table: Table) -> bool:
-    """Return whether there is a case: a vehicle without contacts stands on nothing without them."""
-    return table.name != "OpenVehicle"
+def _on_given_forces(vehicle: str, share: Array) -> dict[str, Array]:
+    """Return the forces of a vehicle without contacts: each wheel carries its load, the first wheelset is pushed and turned."""
+    made = assemble(read(vehicle))
+    found: dict[str, Array] = {}
+    for axle, i in enumerate(made.wheelsets):
+        for side in (1, 2):
+            found[f"wheel[{2 * axle + side}].force.z"] = np.full(share.size, -float(made.bodies[i]["load"]))
+    found["wheel[1].force.y"] = 2e3 * np.sin(4.0 * math.pi * share)
+    found["wheel[1].force.x"], found["wheel[2].force.x"] = 1e3 * share, -1e3 * share
+    found["wheel[1].moment.z"], found["wheel[2].moment.z"] = -750.0 * share, -750.0 * share
+    return found
 
 
 def columns(table: Table, causality: Causality) -> list[str]:
-    """Return the names of the scalars of a set: Reals that every host can write, without bins of damage."""
+    """Return the names of the scalars of a set: Reals that every host can write, without bins of damage.
+
+    Those of a matrix have a comma, at which readers of the Cross-Check divide lines.
+    """
     return [
         s.name
         for s in table.scalars
@@ -96,5 +114,4 @@ def columns(table: Table, causality: Causality) -> list[str]:
         and s.row.kind is Kind.REAL
         and s.row in table.shown
         and not s.name.startswith("accumulated")
-        and "," not in s.name  # of a matrix: readers of the Cross-Check divide lines at each comma
     ]

@@ -58,6 +58,8 @@ _WITHOUT = {
         "doubts",
         "validation",
         "validation_cases",
+        "validation_mirror",
+        "validation_momentum",
         "check",
     ),
     *("terminals", "headers", "licences", "packaging", "systems", "table"),
