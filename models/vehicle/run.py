@@ -19,6 +19,7 @@ from ..life.trust import StepError, Trust
 from . import linear
 from .course import SPACING, lay
 from .declared import VehicleDeclaration
+from .duration import doubt_duration
 from .hunting import Hunting, fall
 from .kept import kept
 from .kernels.layout import Axis, Book, Sum, TrackFrame, TrackRow
@@ -160,6 +161,7 @@ class VehicleRun:
                 f"recording.step = {self.step:g} s is too long at {scenario.slowest:g} m/s: a small motion grows {factor:.3g} "
                 f"times in a step; {_LARGEST_AMPLIFICATION:g} times are allowed"
             )
+        doubt_duration(scenario.name, track, (self.distance, d.length), self.step, 2 * len(vehicle.wheelsets))
         self._counted, self._distance = 0.0, 0.0
         self._before = self.simulation.state.u.copy()
         self._rows: list[Array] = []

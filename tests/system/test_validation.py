@@ -11,9 +11,12 @@ from script_host import Script
 
 from contact.errors import ContactError
 from fmu_src import validation
+from fmu_src import validation_mirror as mirror
 from fmu_src.catalogue import models
 from fmu_src.check import compare
+from fmu_src.tables import open_vehicle
 from fmu_src.validation_cases import case
+from fmu_src.validation_momentum import momentum
 from models.wheelset.ports import POINTS
 
 MODELS = {model.table.name: model for model in models(POINTS)}
@@ -130,3 +133,63 @@ def test_every_fmu_with_inputs_has_a_case_within_its_ranges():
         for row, values in given.inputs.items():
             for value in (values.min(), values.max()):
                 model.table.scalars[model.table.references(row)[0]].check(float(value))
+
+
+def test_a_vehicle_on_given_forces_gains_their_momentum(native_vehicles, tmp_path):
+    path = native_vehicles / "OpenVehicle.fmu"
+    table = open_vehicle.table("manchester")
+    (place,) = validation.write(path, table, tmp_path, exchange=False, force=False, vehicle="manchester")
+    assert "the momentum of all bodies grows by the forces and the weight" in (place / "README.md").read_text()
+    given = case(table, vehicle="manchester")
+    answer = columns_of(read_csv(place / "OpenVehicle_ref.csv"))
+    assert momentum(path, "manchester", given, answer) == []
+    for name, message in (("wheel[1].force.y", "momentum along y"), ("wheel[5].force.z", "momentum along z")):
+        wrong = given._replace(inputs={**given.inputs, name: 1.001 * given.inputs[name] + 1.0})
+        assert message in momentum(path, "manchester", wrong, answer)[0]
+
+
+@pytest.mark.parametrize(
+    ("name", "change"),
+    [
+        ("force.y", lambda x: x + 1e3),
+        ("moment.z", lambda x: -x),
+        ("patch[1].lateral", lambda x: x + 1e-4),
+        ("patch[2].n", lambda x: 1.1 * x),
+    ],
+)
+def test_an_answer_that_is_not_that_of_mirrored_inputs_is_not_written(of_python, name, change):
+    answer = columns_of(read_csv(of_python / "WheelRailPair" / "WheelRailPair_ref.csv"))
+    in_mirror = {mirror.of(one)[0]: mirror.of(one)[1] * values for one, values in answer.items()}
+    assert mirror.unlike(answer, in_mirror, validation.tolerance) == []
+    answer[name] = change(answer[name])
+    (found,) = mirror.unlike(answer, in_mirror, validation.tolerance)
+    assert found.startswith(f"{name} is not that of mirrored inputs")
+
+
+def test_every_variable_of_a_mirror_has_its_partner():
+    """Twice mirrored is what it was, and all that a mirror turns is there."""
+    for name, model in MODELS.items():
+        names = {scalar.name for scalar in model.table.scalars}
+        for one in names:
+            there, factor = mirror.of(one)
+            assert there in names, (name, one)
+            assert mirror.of(there) == (one, factor)
+    assert mirror.of("right.force.y") == ("left.force.y", -1.0)
+    assert mirror.of("creep_stiffness[1,3]")[1] == -1.0 == -mirror.of("creep_stiffness[2,3]")[1]
+
+
+def test_matrices_are_compared_where_a_tool_writes_them(of_python, tmp_path):
+    place = of_python / "EllipticContact"
+    reference, arrays = (place / f"EllipticContact_{end}.csv" for end in ("ref", "arrays"))
+    found = compare(reference, place)
+    assert found.agrees
+    assert "not compared: 9 elements of arrays" in found.lines[-2]
+    both = ["".join((one, ";", two.split(";", 1)[1])) for one, two in zip(
+        reference.read_text().replace(",", ";").splitlines(), arrays.read_text().splitlines(), strict=True)]  # fmt: skip
+    (tmp_path / "result.csv").write_text("\n".join(both))
+    found = compare(tmp_path / "result.csv", place)
+    assert found.agrees
+    assert found.lines[-1].startswith("35 of 35 outputs agree")
+    (tmp_path / "result.csv").write_text("\n".join(both).replace("creep_stiffness[1,1]", "creep_stiffness[9,9]"))
+    (tmp_path / "result.csv").write_text((tmp_path / "result.csv").read_text().replace("[2,2]", "[1,1]", 1))
+    assert any("creep_stiffness[1,1]" in line for line in compare(tmp_path / "result.csv", place).lines)
