@@ -57,6 +57,18 @@ class Lattice:
         ends = math.floor(left / dx), math.ceil(right / dx), math.floor(low / dy), math.ceil(high / dy)
         return self._axis(0, *ends[:2]), self._axis(1, *ends[2:])
 
+    def clear(self, box: tuple[float, float, float, float], x: Array, y: Array, h: Array, away: float) -> bool:
+        """Set h to `away` on elements that the box does not need, which cannot touch; return if there are any."""
+        beyond = []
+        for k, at in enumerate((x, y)):
+            step, (low, high) = self.spacing[k], box[2 * k : 2 * k + 2]
+            here = (at + self.origin[k]) / step
+            first, last = math.floor((low + self.origin[k]) / step), math.ceil((high + self.origin[k]) / step)
+            beyond.append((here < first - 0.5) | (here > last + 0.5))
+        outside = beyond[0] | beyond[1][:, None]
+        h[outside] = away
+        return bool(outside.any())
+
     def _axis(self, k: int, first: int, last: int) -> Array:
         step = self.spacing[k]
         if last - first > MAX_SIDE - 2:

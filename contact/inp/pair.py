@@ -112,10 +112,14 @@ class _FilePair(TransientPair):
     def _rolling(self, patch: SurfacePatch, at: Instant) -> tuple[Creepage, float]:
         one = self._slide(patch, at)
         shift = self.case.digits["T"] == 1
-        if not (one.forwards or shift):
-            raise refuse(self.case, "direction", "rolling towards negative x")
         speed = one.mean if one.mean > 0.0 and not shift else 1.0
         return Creepage(one.x / speed, one.y / speed, one.spin / speed), speed
+
+    def _backwards(self, patch: SurfacePatch, at: Instant) -> bool:
+        return self.case.digits["T"] in (2, 3) and not self._slide(patch, at).forwards
+
+    def _place(self, at: Instant) -> None:  # the search needs no velocity
+        super()._place(at._replace(velocity=Velocity()))
 
     def _law(self, patch: SurfacePatch, at: Instant, rows: Elements | None) -> Any:
         case, side = self.case, self.pair.side
@@ -138,6 +142,8 @@ class _FilePair(TransientPair):
             patch = cornered(patch, self.pair.side, self.roller)
         if not (self.case.digits["M"] in pressed.SIMPLIFIED and self.case.digits["T"]):
             return super()._solved(patch, at)
+        if self._backwards(patch, at):
+            raise refuse(self.case, "direction", f"M = {self.case.digits['M']} that rolls towards negative x")
         creepage, speed = self._rolling(patch, at)
         case, gap, bodies = _at_patch(self.case, patch.angle, self.pair.side), patch.gap, self.pair.material
         normal = self._normal(patch)(gap.h, gap.dx, gap.dy, bodies, approach=patch.approach)
@@ -248,8 +254,8 @@ class PairRunner:
         forward = case["RPITCH"] * case["NOMRADR"] if roller else case["VS"]
         spin = None if digits["F"] == 1 else case["VPITCH"]
         velocity = Velocity(forward, case["VY"], case["VZ"], case["VROLL"], case["VYAW"], spin)
-        if digits["T"] != 1 and not forward > 0.0:
-            raise refuse(case, "input", f"{'RPITCH' if roller else 'VS'} gives {forward:g} m/s; allowed: positive")
+        if self._fast and not forward > 0.0:
+            raise refuse(case, "strips", f"VS = {forward:g} m/s")
         given: dict[str, Any] = {"irregularity": bodies.irregularity(case)}
         if not self._fast or bodies.has_slices(case):
             given |= {"station": case["X_WS" if roller else "S_WS"], "rotation": case["PITCH"]}

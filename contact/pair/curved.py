@@ -23,6 +23,7 @@ from contact.kernels.geometry.section import AWAY
 #: Points of a section for each of its nodes, and for each row of elements; rows beyond the overlap on either side.
 _FINE, _PER_ROW, _BEYOND = 20, 8, 3
 _ABSENT = 1e-3  # [m] by which elements without a surface lie above the highest other one
+_NEAR = 0.5  # [m] gap of elements that belong to the patch
 _STEEPEST = math.radians(85.0)
 _MIRROR = np.array([1.0, -1.0, 1.0])
 
@@ -60,17 +61,19 @@ def elements(pair: SurfacePair, patch: SurfacePatch, bent: bool) -> Elements:
         h = (gap.h[::-1] if left else gap.h) - patch.approach
         axes = np.repeat(frame.axes[None], rows.size, axis=0)
         return _finished(gap.x, rows, rows, np.zeros(rows.size), h, points, axes, frame, left)
-    rows, middle, tilt, half = _middle(pair, frame, rows, gap.dy, y, r)
+    near = gap.h[::-1] < _NEAR if left else gap.h < _NEAR  # elsewhere the contact cannot be
+    old, (rows, middle, tilt, half) = rows, _middle(pair, frame, rows, gap.dy, y, r)
+    row = np.clip(np.rint((rows - old[0]) / gap.dy).astype(np.int64), 0, old.size - 1)
     h, axes = np.empty((rows.size, gap.x.size)), np.empty((rows.size, 3, 3))
     on_rail = np.empty((rows.size, 3))
     turn, pitch = frame.turn
     for k in range(rows.size):
         origin = np.array([0.0, *middle[k]]) @ frame.axes + frame.origin
-        row = Frame.turned(origin, turn + float(tilt[k]), pitch)
-        h[k] = within(pair.distance)(row, gap.x, np.zeros(1))[0]
-        axes[k] = row.axes
-        on_rail[k] = origin + half[k] * row.axes[2]
-    there = h < AWAY
+        own = Frame.turned(origin, turn + float(tilt[k]), pitch)
+        h[k] = within(pair.distance)(own, gap.x, np.zeros(1))[0]
+        axes[k] = own.axes
+        on_rail[k] = origin + half[k] * own.axes[2]
+    there = (h < AWAY) & near[row]
     h = np.where(there, h, h[there].max() + _ABSENT)
     return _finished(gap.x, rows, middle[:, 0], tilt, h, on_rail, axes, frame, left)
 

@@ -245,7 +245,8 @@ class HalfspacePair(AnyPair):
             if abs(miss) <= (_TOLERANCE if step < _MOST_STEPS // 2 else _WIDER) * vertical:
                 self._share = carried / vertical if vertical > 0.0 else 1.0
                 return found
-            slope = 1.0 if before is None else (carried - before[0]) / (before[1] - miss)
+            change = 0.0 if before is None else before[1] - miss
+            slope = 1.0 if before is None or change == 0.0 else (carried - before[0]) / change
             before = carried, miss
             carried = max(carried + miss * (slope if 0.2 < slope < 5.0 else 1.0), 1e-3 * vertical)
         raise ContactError(

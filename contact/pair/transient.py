@@ -26,6 +26,7 @@ from contact.halfspace.state import State
 from contact.halfspace.third_body import ThirdBody
 from contact.inputs.creepage import Creepage
 from contact.instance.ownership import one_thread
+from contact.pair import backwards
 from contact.pair.curved import Elements, elements
 from contact.pair.elastic_rail import ElasticRail
 from contact.pair.halfspace import _IDEAL, _STRAIGHT, HalfspacePair, Instant
@@ -276,9 +277,11 @@ class TransientPair(HalfspacePair):
         if rows is not None:
             patch = replace(patch, gap=rows.gap, approach=rows.approach)
             slip, creepage = self._slip(rows, at) / speed, Creepage()
-        gap = patch.gap
+        gap, back = patch.gap, self._backwards(patch, at)
+        if back:
+            creepage, slip = backwards.of_creepage(creepage), 0.0 if rows is None else backwards.of_vectors(slip)
         contact = Transient(
-            gap,
+            backwards.of_gap(gap) if back else gap,
             approach=patch.approach,
             friction=self._law(patch, at, rows),
             material=self.pair.material,
@@ -295,13 +298,21 @@ class TransientPair(HalfspacePair):
         if math.isinf(step.distance):
             found = contact.roll_on(creepage)
         else:
-            contact.restore(self._continued(here))
+            before = self._continued(here)
+            contact.restore(backwards.of_state(before) if back else before)
             if step.distance == 0.0:
                 found = contact.shift(creepage.longitudinal, creepage.lateral, creepage.spin)
             else:
                 found = contact.roll(creepage, distance=step.distance, sliding=step.sliding)
-        self._now.append(here._replace(state=contact.state))
+        left = contact.state
+        if back:
+            found, left = backwards.of_solution(found), backwards.of_state(left)
+        self._now.append(here._replace(state=left))
         return Solved(patch, found if rows is None else replace(found, creepage=reference), patch.frame.axes)
+
+    def _backwards(self, patch: SurfacePatch, at: Instant) -> bool:
+        """Return whether a patch rolls towards -x."""
+        return False
 
     def _true(self, patch: SurfacePatch) -> Elements:
         """Return the elements of a patch on the true surfaces."""

@@ -169,6 +169,23 @@ def test_a_rail_in_a_curve_moves_under_the_wheel(tmp_path):
     assert curved.patches[0].values["CPHI"] - straight.patches[0].values["CPHI"] == pytest.approx(-1e-2, rel=1e-3)
 
 
+@pytest.mark.parametrize("kind", ["1203000", "1202000"])
+def test_rolling_backwards_is_rolling_forwards_in_a_mirror_across_the_track(tmp_path, kind):
+    ahead = ("0. 0.5 0.03 0.01 0.003 0.", "1000. 1. 0. 0. 0. -10.01")
+    back = ("0. 0.5 0.03 0.01 -0.003 0.", "-1000. 1. 0. 0. 0. 10.01")
+    next_ = kind.replace("120", "100", 1)
+    for search in ("2", "4"):
+        found = []
+        for lines in (ahead, back):
+            sequence(tmp_path, [(kind, False, lines), (next_, False, lines)])
+            text = (tmp_path / "case.inp").read_text().replace("0022033", f"00{search}2033")
+            (tmp_path / "case.inp").write_text(text)
+            found.append(inp.solve(inp.read(tmp_path / "case.inp"))[-1])
+        a, b = (one.patches[0].values for one in found)
+        for name, sign in (("FX", -1.0), ("FY", 1.0), ("FN", 1.0), ("CKSI", -1.0), ("CETA", 1.0), ("CPHI", -1.0)):
+            assert b[name] == pytest.approx(sign * a[name], rel=1e-5, abs=1e-9), name
+
+
 def test_strips_refuse_what_needs_the_half_space_by_name(tmp_path):
     profiles(tmp_path)
     sequence(tmp_path, [("1201000", False, ("0. 0. 0.04 0. 0. 0.", REST))])

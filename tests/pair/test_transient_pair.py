@@ -83,6 +83,8 @@ def test_patches_keep_their_traction_when_they_join_and_part():
     apart = pair.shift(Pose(z=6e-5), Velocity(0.0, spin=0.0))
     assert len(apart.contacts) == 2
     assert one.force[0] == pytest.approx(two.force[0], rel=0.02)
+    fresh = TransientPair(pair.pair).shift(Pose(z=6e-5), Velocity(0.0, spin=0.0))
+    assert pytest.approx(fresh.Q, rel=2e-3) == apart.Q  # each patch has its own elements only
     assert apart.contacts[0].Fx == pytest.approx(apart.contacts[1].Fx, rel=1e-6)
 
 

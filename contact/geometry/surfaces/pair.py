@@ -324,19 +324,21 @@ class SurfacePair(Posed):
         box = self._overlap(frame, (p.back, p.front, p.left, p.right))
         if box is None:
             return None
-        division = self.division
+        division, station = self.division, self.space.motion[0].station
         if isinstance(division, Lattice):
-            division = division.placed(self.space.motion[0].station + float(frame.origin[0]), float(p.rail_y))
+            division = division.placed(station + float(frame.origin[0]), float(p.rail_y))
         elif division.spacing is None:
             steps = _step(*box[:2], division.columns), _step(*box[2:], division.rows)
             division = division._replace(spacing=steps)
         centres = division.centres(box)
         h = within(self.distance)(frame, *centres)
+        far = isinstance(division, Lattice) and division.clear(box, *centres, h, AWAY)
         present = h < AWAY
-        if not present.any() or not h[present].min() < 0.0:
+        if not h.min() < 0.0:
             return None
-        approach = -float(h[present].min())
-        return _Elements(Gap(*centres, np.where(present, h, h[present].max() + _ABSENT) + approach), approach, frame)
+        approach = -float(h.min())
+        h = np.where(present, h, AWAY if far else h[present].max() + _ABSENT) + approach
+        return _Elements(Gap(*centres, h), approach, frame)
 
     def _overlap(self, frame: Frame, box: Range) -> Range | None:
         """Return the range of a frame that the overlap fills, about in the range `box`; None without overlap."""
@@ -393,8 +395,5 @@ def _around(at: Array, inside: NDArray[np.bool_]) -> tuple[float, float]:
 
 
 def _step(low: float, high: float, n: int) -> float:
-    """Return a size of elements [m] of which about `n` cover low … high: a power of 2^(1/4).
-
-    So the elements keep their places in the frame when the overlap grows a little, and forces do not jump.
-    """
+    """Return a size of elements [m] of which about `n` cover low … high: a power of 2^(1/4), so forces do not jump."""
     return float(2.0 ** (0.25 * math.floor(4.0 * math.log2(max(high - low, 1e-7) / n))))
