@@ -101,7 +101,7 @@ $(READY_FOR_DOCS): $(READY)
 	$(BIN)/python -m pip install --quiet --editable '.[docs]'
 	@touch $@
 
-EXPLORER := $(wildcard explorer/*.py explorer/*.c explorer/page/* fmu_src/tables/*.py fmu_src/native/*.py) $(shell find contact/kernels -name '*.py')
+EXPLORER := $(wildcard explorer/*.py explorer/*.c explorer/page/* fmu_src/tables/*.py fmu_src/native/*.py contact/compile/*.py) $(shell find contact/kernels -name '*.py')
 dist/explorer.html: $(EXPLORER) | $(READY)
 	$(BIN)/python -m explorer --out $@
 

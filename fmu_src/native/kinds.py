@@ -28,10 +28,12 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from importlib import import_module
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-from contact.compile.library import Added
 from .component import Given
+
+if TYPE_CHECKING:
+    from contact.compile.library import Added
 
 #: Function → types of its result and of its arguments without `given`: a number of 64 bits, or a pointer to float64.
 SIGNATURES: dict[str, tuple[str, tuple[str, ...]]] = {
@@ -70,6 +72,8 @@ def added() -> list[Added]:
 
 def of_kind(kind: str, entries: dict[str, Callable[..., Any]], file: str) -> list[Added]:
     """Return the functions of a kind, given those by the names in `SIGNATURES` that it needs."""
+    from contact.compile.library import Added  # an installation packs FMUs and compiles nothing
+
     made: dict[str, Callable[..., Any]] = {name: entries.get(f"model_{name}") or _UNNEEDED[name] for name in SIGNATURES}
     return [
         Added(f"{kind}_{name}", made[name], result, arguments, _given, file)
