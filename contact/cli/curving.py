@@ -11,6 +11,7 @@ from contact.cli import arguments
 from contact.cli import options as opt
 from contact.cli.output import deliver, prepare, reported, require_trusted
 from contact.cli.problem import load_or_standard
+from contact.errors import ContactError
 from contact.inputs.options import FLANGE_BACK, GAUGE, RADIUS
 from contact.pair.curving import Curving, in_curve
 from contact.registry import DEFAULT_NORMAL, DEFAULT_TANGENTIAL
@@ -57,6 +58,11 @@ def curving(
     --load is that of each wheel on level track. Example:  contact curving --curve-radius 300 --speed 15 --cant 0.1
     --yaw-stiffness 10e6 --lead 1.28
     """
+    if radius > RADIUS.most:
+        raise ContactError(
+            f"--radius {radius:g} is outside the allowed range [{RADIUS.least:g}, {RADIUS.most:g}]: the wheel has it; the "
+            "curve's is --curve-radius"
+        )
     prepare(out)
     found = in_curve(
         reading.load(wheel, "wheel"),
