@@ -19,12 +19,12 @@ from contact.arrays import Array
 from contact.geometry import profile
 from contact.plot import time_histories
 from examples.crossing import turnout
-from models.life.track import Track
 from models.vehicle.course import lay
 from models.vehicle.declared import read
 from models.vehicle.kernels.layout import Book
 from models.vehicle.sections import RailSection
 from models.vehicle.simulation import ContactOptions, Simulation
+from models.vehicle.track import Track
 
 #: Distance of the first wheelset before the slices begin, and after they end [m].
 _BEFORE, _AFTER = 0.5, 1.5

@@ -17,9 +17,9 @@ from pathlib import Path
 import numpy as np
 
 from benchmarks.tables import table
-from models.life import scenario
+from models.runs import scenario
+from models.runs.run import VehicleRun
 from models.vehicle.kernels.layout import Axis
-from models.vehicle.run import VehicleRun
 from models.vehicle.simulation import SIDES
 
 EXAMPLE = Path(__file__).parents[1] / "examples" / "scenarios" / "vehicle_wear" / "curve_600.toml"

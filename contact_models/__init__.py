@@ -1,6 +1,6 @@
 """The name that the package `models` has in an installation, in a checkout too: pages and examples import `contact_models`.
 
-`contact_models.life.scenario` is the same module as `models.life.scenario`. A wheel does not hold this file: it installs the
+`contact_models.runs.scenario` is the same module as `models.runs.scenario`. A wheel does not hold this file: it installs the
 folder `models` as `contact_models` (`setup.py`). `contact_fmu` does the same for `fmu_src`.
 """
 

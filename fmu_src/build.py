@@ -10,7 +10,7 @@ from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 from typing import NamedTuple
 
-from contact_models.life import scenario
+from contact_models.runs import scenario
 from contact_models.wheelset import ports
 from contact_models.wheelset.parameters import WheelsetParameters
 

@@ -11,7 +11,7 @@ from importlib import import_module
 from pathlib import Path
 from typing import Any
 
-from contact_models.life import scenario
+from contact_models.runs import scenario
 from contact_models.wheelset.ports import POINTS
 
 from contact.errors import ContactError
@@ -97,7 +97,7 @@ def vehicles(path: Path, given: Mapping[Kind, Profile] | None = None) -> tuple[M
     Raises
     ------
     ContactError
-        As `models.life.scenario.read`, and for what the FMUs have not: flats, polygons, slices, torques, different rails.
+        As `models.runs.scenario.read`, and for what the FMUs have not: flats, polygons, slices, torques, different rails.
     """
     declared = scenario.read(path)
     declared.require_profiles(path.name, "the FMUs of a vehicle take")

@@ -21,7 +21,7 @@ from pathlib import Path
 from xml.etree.ElementTree import Element, SubElement, fromstring, indent, tostring
 from zipfile import ZipFile
 
-from contact_models.life.scenario import Scenario
+from contact_models.runs.scenario import Scenario
 from contact_models.wheelset.parameters import WheelsetParameters
 from contact_models.wheelset.ports import ENERGY, IRREGULARITY, MOTION, POINTS, PROBLEM, REACTION, REPORT, SIDES
 

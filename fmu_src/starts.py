@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from contact_models.life.scenario import WEAR_LAW, Methods, Profiles, Scenario
+from contact_models.runs.scenario import WEAR_LAW, Methods, Profiles, Scenario
 from contact_models.vehicle.course import lay
 from contact_models.vehicle.kernels.layout import Axis
 from contact_models.vehicle.simulation import ContactOptions, Simulation

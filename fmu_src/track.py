@@ -8,8 +8,8 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
-from contact_models.life import scenario
-from contact_models.life.scenario import Scenario
+from contact_models.runs import scenario
+from contact_models.runs.scenario import Scenario
 from contact_models.vehicle.course import lay
 from contact_models.vehicle.kernels.layout import TrackRow
 

@@ -12,7 +12,8 @@ from contact.accumulation import Histogram
 from contact.cli import cases
 from contact.geometry import profile
 from fmu_src import archive, profiles, resources
-from models.life import checkpoint, declared
+from models import toml as declared
+from models.runs import checkpoint
 from tests import damaged
 
 

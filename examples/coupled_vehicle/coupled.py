@@ -14,13 +14,13 @@ from contextlib import ExitStack
 from pathlib import Path
 
 import numpy as np
-from contact_models.life.spectra import Irregularities
-from contact_models.life.track import Curve, Track
 from contact_models.vehicle.coupling import Contact, OpenVehicle
 from contact_models.vehicle.course import lay
 from contact_models.vehicle.declared import read
 from contact_models.vehicle.kernels.layout import Axis
 from contact_models.vehicle.simulation import SIDES, ContactOptions, Simulation
+from contact_models.vehicle.spectra import Irregularities
+from contact_models.vehicle.track import Curve, Track
 
 from contact.arrays import Array
 from contact.geometry import profile

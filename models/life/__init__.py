@@ -1,1 +1,1 @@
-"""Scenarios, how far a run can be trusted, and wear over a mileage (readme.md)."""
+"""Wear over a mileage (readme.md)."""

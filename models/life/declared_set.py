@@ -14,11 +14,11 @@ import numpy as np
 from contact.errors import ContactError, require_number
 from contact.geometry.profile import Profile
 from contact.inputs.material import STEEL
-from . import scenario
-from .declared import build, read_table
+from ..runs import scenario
+from ..runs.origin import hashed
+from ..runs.scenario import Scenario
+from ..toml import build, read_table
 from .flange import Flange
-from .origin import hashed
-from .scenario import Scenario
 
 _GRAVITY = 9.81  # [m/s²]
 #: A study in which the depth allows less than this share of the wished step stops.

@@ -15,14 +15,14 @@ from contact.arrays import Array
 from contact.errors import ContactError
 from contact.geometry import conicity
 from contact.geometry.profile import Profile
+from ..runs.outcome import Outcome, outcome
+from ..runs.scenario import Scenario
+from ..runs.trust import TRUST, NotTrusted, Trust, worst
 from ..wheelset.ports import SIDES
 from .declared_set import ScenarioSet
-from .outcome import Outcome, outcome
 from .part import Part, Rail, Wheel
 from .reprofiling import cut, forecast
 from .scale import Workers
-from .scenario import Scenario
-from .trust import TRUST, NotTrusted, Trust, worst
 
 #: Column of the steps → unit and meaning. The first row is the unworn vehicle.
 COLUMNS = {
@@ -140,7 +140,7 @@ class Life:
         watch : callable
             Called with the number of runs done and the total number.
         go_on : bool
-            Wear the profiles also if a run is not to be trusted (`models.life.trust`).
+            Wear the profiles also if a run is not to be trusted (`models.runs.trust`).
 
         Raises
         ------

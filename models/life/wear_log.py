@@ -2,29 +2,35 @@
 
 from __future__ import annotations
 
-import math
-import sys
 import time
 from collections.abc import Callable
+from pathlib import Path
 
 import typer
 
+from ..runs.progress import Progress, time_left
 from .wear import Life
 
 _WRITING = 0.1  # largest share of the time for interim reports
 _RECENT = 3  # steps from which the time left is estimated
-_TOLD = 10.0  # between two lines about runs, where there is no bar [s]
 
 
 class WearLog:
-    """Lines and bar of a study of wear, with the time left, and when an interim report may be written."""
+    """Lines and bar of a study of wear, with the time left, and when an interim report may be written.
 
-    def __init__(self, life: Life) -> None:
+    Parameters
+    ----------
+    life : Life
+    folder : Path
+        Of the log file, which has a line for each step and one a minute.
+    """
+
+    def __init__(self, life: Life, folder: Path) -> None:
         self._life = life
         self._times = [time.monotonic()]  # at the end of each step
         self._mileages = [life.mileage]
         self._written, self._writing = self._times[0], 0.0
-        self._told = self._times[0]
+        self._progress = Progress(folder)
         typer.echo(
             f"{life.plan.name}: {len(life.plan.scenarios)} runs a step, {life.plan.declared.mileage * 1e-3:g} km in all",
             err=True,
@@ -37,9 +43,8 @@ class WearLog:
         ahead = min(self._mileages[-1] - self._mileages[max(len(self._mileages) - 2, 0)], total - life.mileage)
         said = f"{1e-3 * life.mileage:.0f} km, run {k} of {n}"
         bar((life.mileage + ahead * k / n) / total, said)
-        if k < n and time.monotonic() - self._told >= _TOLD and not sys.stderr.isatty():
-            typer.echo(said, err=True)
-            self._told = time.monotonic()
+        if k < n:
+            self._progress.tell(lambda: said)
 
     def stepped(self) -> None:
         """Print what a step has done, and the time left by the last steps."""
@@ -50,12 +55,13 @@ class WearLog:
         pace = (self._times[-1] - self._times[since]) / (life.mileage - self._mileages[since])
         deepest = max(life.parts, key=lambda part: float(part["deepest"][-1]))
         tape = max(float(wheel["tread_depth"][-1]) for wheel in life.wheels.values())
-        typer.echo(
+        line = (
             f"step {len(life.rows) - 1}, {self._times[-1] - self._times[-2]:.0f} s: {1e-3 * life.mileage:.0f} of "
             f"{1e-3 * life.plan.declared.mileage:g} km, {1e6 * deepest['deepest'][-1]:.0f} µm off {deepest.name}, "
-            f"{1e3 * tape:.2f} mm off the tape circle since new{time_left(pace * (life.plan.declared.mileage - life.mileage))}",
-            err=True,
+            f"{1e3 * tape:.2f} mm off the tape circle since new{time_left(pace * (life.plan.declared.mileage - life.mileage))}"
         )
+        typer.echo(line, err=True)
+        self._progress.log(line)
 
     @property
     def may_write(self) -> bool:
@@ -68,10 +74,3 @@ class WearLog:
         write()
         self._written = time.monotonic()
         self._writing = self._written - begun
-
-
-def time_left(seconds: float) -> str:
-    """Return the time left as the end of a line: nothing if there is none, or no estimate."""
-    if not 0.5 < seconds < math.inf:
-        return ""
-    return f", about {seconds:.0f} s left" if seconds < 90.0 else f", about {seconds / 60.0:.0f} min left"

@@ -11,10 +11,10 @@ import numpy as np
 from contact import plot
 from contact.study.page import document, faint, html_of
 from contact.study.table import Table, number
+from ..runs.origin import origin
+from ..runs.parts import illustrated, told, warned
 from ..wheelset.ports import SIDES
-from .origin import origin
 from .part import DENSITY, Part, displacement
-from .report import illustrated, told, warned
 from .wear import Life
 
 _KM = 1e-3

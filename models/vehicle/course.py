@@ -9,9 +9,9 @@ import numpy as np
 
 from contact.arrays import Array
 from contact.errors import ContactError
-from ..life.measured import RAIL_DISTANCE
-from ..life.track import Track
 from .kernels.layout import TrackRow
+from .measured import RAIL_DISTANCE
+from .track import Track
 
 SPACING = 0.05  # largest distance of the places of a track [m]
 #: Largest number of places of a track; 17 rows of them take 136 MB.

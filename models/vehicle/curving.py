@@ -11,13 +11,13 @@ from contact.arrays import Array
 from contact.errors import ContactError
 from contact.friction import Friction
 from contact.geometry.profile import Profile
-from ..life.track import Curve, Track
 from .course import lay
 from .declared import VehicleDeclaration
 from .kernels.frames import carried, lay_frames
 from .kernels.layout import Axis, Book
 from .linear import coordinates
 from .simulation import ContactOptions, Simulation
+from .track import Curve, Track
 
 _INSTANT = 1e-6  # step from which the accelerations are taken [s]
 _TRANSITION = 40.0  # at the start of the curve [m]

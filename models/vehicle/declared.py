@@ -9,7 +9,7 @@ from typing import TypeVar
 
 from contact.errors import ContactError, require_number, suggestion
 from contact.inputs.options import FLANGE_BACK, GAUGE, GAUGE_POINT, RADIUS
-from ..life.declared import build, read_table
+from ..toml import build, read_table
 
 #: Folder of the vehicles that are included, one file each.
 INCLUDED = Path(__file__).parent / "included"

@@ -12,8 +12,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from contact.arrays import Array
-from ..life.track import Track
 from .assess import band_pass, guiding, low_pass, prudhomme, sliding_mean
+from .track import Track
 
 #: Percentile of the largest values, and of quasi-static ones [%].
 LARGEST, QUASI_STATIC = 99.85, 50.0

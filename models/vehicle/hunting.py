@@ -11,11 +11,11 @@ from contact.arrays import Array
 from contact.errors import ContactError, require_number
 from contact.friction import Friction
 from contact.geometry.profile import Profile
-from ..life.track import Track
 from .course import lay
 from .declared import VehicleDeclaration
 from .kernels.layout import Axis
 from .simulation import ContactOptions, Simulation
+from .track import Track
 
 _WINDOW = 0.5  # over which an amplitude is taken [s]
 

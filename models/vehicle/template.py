@@ -12,7 +12,7 @@ import typer
 
 from contact.cli.output import reported
 from contact.errors import ContactError
-from ..life.explained import explained, is_type
+from ..explained import explained, is_type
 from . import declared
 
 _WIDTH = 100

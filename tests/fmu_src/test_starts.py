@@ -13,8 +13,8 @@ from fmu_src.catalogue import models, vehicles
 from fmu_src.native.table import content
 from fmu_src.tables import open_vehicle, vehicle
 from fmu_src.variables import Causality
-from models.life import scenario
-from models.life.scenario import Methods
+from models.runs import scenario
+from models.runs.scenario import Methods
 from models.wheelset.ports import POINTS
 
 #: Every number of friction differs from its default.

@@ -11,10 +11,9 @@ import typer
 import xarray
 from typer.testing import CliRunner
 
-from models.life import commands
-from models.life.trust import TRUST
-from models.vehicle import report
-from models.vehicle.run import VehicleRun
+from models.runs import commands, progress, report
+from models.runs.run import VehicleRun
+from models.runs.trust import TRUST
 
 SCENARIO = """
 name = "short & sharp"
@@ -46,7 +45,7 @@ def call(tmp_path):
 
 
 def test_interrupted_run_goes_on_to_the_same_files(call, tmp_path, monkeypatch):
-    monkeypatch.setattr(report, "page_of", lambda run: repr(run.balance))  # pictures take long
+    monkeypatch.setattr(report, "page_of", lambda run, nonlinear: repr(run.balance))  # pictures take long
     assert call("whole").exit_code == 0
     advance = VehicleRun.advance
 
@@ -69,7 +68,7 @@ def test_interrupted_run_goes_on_to_the_same_files(call, tmp_path, monkeypatch):
 
 
 def test_the_files_do_not_depend_on_the_number_of_threads(call, tmp_path, monkeypatch):
-    monkeypatch.setattr(report, "page_of", lambda run: "")
+    monkeypatch.setattr(report, "page_of", lambda run, nonlinear: "")
     for threads in ("1", "2"):
         assert call(threads, "--threads", threads).exit_code == 0
     assert (tmp_path / "1" / "result.nc").read_bytes() == (tmp_path / "2" / "result.nc").read_bytes()
@@ -93,7 +92,7 @@ def test_bad_scenario_ends_with_a_message(call, tmp_path):
 
 
 def test_json_of_a_run_names_its_files_and_how_far_it_can_be_trusted(call, tmp_path, monkeypatch):
-    monkeypatch.setattr(report, "page_of", lambda run: "")
+    monkeypatch.setattr(report, "page_of", lambda run, nonlinear: "")
     answer = json.loads(call("out", "--json").stdout)
     assert answer["command"] == "run"
     assert answer["inputs"]["file"] == str(tmp_path / "case.toml")
@@ -103,7 +102,7 @@ def test_json_of_a_run_names_its_files_and_how_far_it_can_be_trusted(call, tmp_p
 
 @pytest.mark.parametrize("ending", [".csv", ".mat", ".nc"])
 def test_the_time_series_goes_to_a_file_that_other_programs_read(call, tmp_path, monkeypatch, ending):
-    monkeypatch.setattr(report, "page_of", lambda run: "")
+    monkeypatch.setattr(report, "page_of", lambda run, nonlinear: "")
     path = tmp_path / f"run{ending}"
     ended = call(path.name)
     assert ended.exit_code == 0
@@ -121,8 +120,8 @@ def test_the_time_series_goes_to_a_file_that_other_programs_read(call, tmp_path,
 
 
 def test_progress_is_also_a_line_a_minute_in_a_file(call, tmp_path, monkeypatch):
-    monkeypatch.setattr(report, "page_of", lambda run: "")
-    monkeypatch.setattr(commands, "_LOGGED", 0.0)
+    monkeypatch.setattr(report, "page_of", lambda run, nonlinear: "")
+    monkeypatch.setattr(progress, "_LOGGED", 0.0)
     assert call("out").exit_code == 0
     lines = (tmp_path / "out" / "progress.log").read_text(encoding="utf-8").splitlines()
     assert len(lines) > 3

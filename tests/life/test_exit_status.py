@@ -8,10 +8,10 @@ import typer
 from typer.testing import CliRunner
 
 from contact.cli.output import BAD_INPUT, INTERRUPTED, MISSING, NOT_TRUSTED
-from models.life import commands
-from models.life.trust import LARGEST_UNTRUSTED
-from models.vehicle import report
-from models.vehicle.run import VehicleRun
+from models.life.commands import wear
+from models.runs import commands, report
+from models.runs.run import VehicleRun
+from models.runs.trust import LARGEST_UNTRUSTED
 from tests.command_line import call
 from tests.life.short_set import written
 from tests.life.trusts import BAD, GOOD
@@ -34,7 +34,7 @@ def test_a_run_is_reliable_if_its_energy_closes_and_nearly_all_contacts_have_a_s
 
 @pytest.mark.parametrize(("trust", "status"), [(GOOD, 0), (BAD, NOT_TRUSTED)])
 def test_a_run_that_is_not_to_be_trusted_ends_with_status_3_after_its_files(tmp_path, monkeypatch, trust, status):
-    monkeypatch.setattr(report, "page_of", lambda run: "")
+    monkeypatch.setattr(report, "page_of", lambda run, nonlinear: "")
     monkeypatch.setattr(VehicleRun, "trust", trust)
     ended = run(commands.run, written(tmp_path).parent / "straight.toml", "--out", tmp_path / "out")
     assert ended.exit_code == status, ended.output
@@ -43,7 +43,7 @@ def test_a_run_that_is_not_to_be_trusted_ends_with_status_3_after_its_files(tmp_
 
 def test_a_study_that_stops_at_a_run_not_to_be_trusted_ends_with_status_3(tmp_path, monkeypatch):
     monkeypatch.setattr(VehicleRun, "trust", BAD)
-    ended = run(commands.wear, written(tmp_path), "--out", tmp_path / "out")
+    ended = run(wear, written(tmp_path), "--out", tmp_path / "out")
     assert ended.exit_code == NOT_TRUSTED
     assert "does not close: -49 %" in ended.output
 

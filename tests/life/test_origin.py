@@ -7,10 +7,11 @@ from importlib.metadata import version
 import numpy as np
 import pytest
 
-from models.life import declared_set, scenario, wear_report
-from models.life.origin import hashed, origin
+from models.life import declared_set, wear_report
 from models.life.scale import Workers
 from models.life.wear import Life
+from models.runs import scenario
+from models.runs.origin import hashed, origin
 from models.vehicle import declared
 from tests.life.short_set import written
 

@@ -7,15 +7,15 @@ import typer
 from typer.testing import CliRunner
 
 from contact.errors import ContactError
-from models.life import commands, declared_set, result, scenario
+from models.life import declared_set
 from models.life.declared_set import Steps
 from models.life.scale import Workers
-from models.life.trust import TRUST, StepError, worst
 from models.life.wear import Life
-from models.vehicle import report
+from models.runs import commands, report, result, scenario
+from models.runs.run import VehicleRun
+from models.runs.trust import TRUST, StepError, worst
 from models.vehicle.kernels.layout import Book
 from models.vehicle.kernels.wheels import count
-from models.vehicle.run import VehicleRun
 from tests.life.short_set import written
 from tests.life.trusts import BAD, GOOD
 

@@ -200,6 +200,8 @@ def test_command_writes_result_and_page_and_goes_on_from_its_checkpoint(plan, tm
     assert resumed.exit_code == 0, resumed.output
     assert f"continues at {1e-3 * life['mileage'][1]:.0f} km" in resumed.output
     assert "800 km in" in resumed.output
+    logged = (tmp_path / "out" / "progress.log").read_text(encoding="utf-8")
+    assert all(f"step {k}, " in logged for k in (1, 2))
     assert "warning: The run ends before the end of 1 of its curves" in resumed.output
     stored = xarray.load_dataset(tmp_path / "out" / "result.nc", engine="scipy")
     assert stored["mileage"].values[-1] == pytest.approx(8e5)

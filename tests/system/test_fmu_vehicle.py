@@ -12,7 +12,7 @@ from fmpy.ssp.ssd import read_ssd
 from pyssp_standard.ssp import SSP
 
 from examples.coupled_vehicle.system import VehicleSystem
-from models.life import scenario
+from models.runs import scenario
 from models.vehicle.course import lay
 from models.vehicle.kernels.layout import Book
 from models.vehicle.simulation import ContactOptions, Simulation

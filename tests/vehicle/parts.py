@@ -8,11 +8,11 @@ from dataclasses import replace
 from contact.geometry import profile
 from contact.geometry.profile import Profile
 from contact.geometry.surfaces import WheelSurface
-from models.life.track import Track
 from models.vehicle.course import lay
 from models.vehicle.declared import VehicleDeclaration, read
 from models.vehicle.sections import RailSection
 from models.vehicle.simulation import PACE, ContactOptions, Simulation
+from models.vehicle.track import Track
 
 #: Methods that are compiled and solved fast.
 FAST = ContactOptions(normal="analyn", tangential="fastrip", n_strips=20, n_elements=12)

@@ -4,10 +4,10 @@ import pytest
 
 from contact.errors import ContactError
 from contact.geometry import profile
-from models.life.track import Curve, Track
 from models.vehicle import curving, hunting, linear
 from models.vehicle.declared import read
 from models.vehicle.kernels.layout import Sum
+from models.vehicle.track import Curve, Track
 from tests.vehicle.parts import FAST, PACED, simulation
 
 PROFILES = profile.s1002(), profile.rail_60e1()

@@ -7,10 +7,10 @@ import numpy as np
 import pytest
 
 from contact.errors import ContactError
-from models.life.spectra import Irregularities
-from models.life.track import Curve, Friction, Track
 from models.vehicle.course import BEYOND, SPACING, lay
 from models.vehicle.kernels.layout import TrackRow
+from models.vehicle.spectra import Irregularities
+from models.vehicle.track import Curve, Friction, Track
 
 CURVE = Curve(start=20.0, radius=300.0, length=60.0, transition=30.0, cant=0.15)
 

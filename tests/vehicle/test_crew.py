@@ -5,12 +5,12 @@ import pytest
 
 from contact.errors import ContactError
 from contact.geometry import profile
-from models.life.spectra import Irregularities
-from models.life.track import Curve, Track
 from models.vehicle.course import lay
 from models.vehicle.declared import read
 from models.vehicle.kernels.layout import Axis
 from models.vehicle.simulation import Simulation
+from models.vehicle.spectra import Irregularities
+from models.vehicle.track import Curve, Track
 from tests.vehicle.parts import FAST
 
 ROUGH = Track(

@@ -7,10 +7,10 @@ import pytest
 
 from contact.errors import ContactError
 from contact.geometry import profile
-from models.life.spectra import Irregularities
-from models.life.track import Curve, Friction, Track
 from models.vehicle.declared import Damper, Rail, read
 from models.vehicle.kernels.layout import Axis, Book, Sum
+from models.vehicle.spectra import Irregularities
+from models.vehicle.track import Curve, Friction, Track
 from tests.vehicle.parts import simulation
 
 ROUGH = {

@@ -2,12 +2,13 @@
 
 import math
 
+import numpy as np
 import pytest
 
 from contact.geometry import profile
-from models.life import scenario
-from models.vehicle import hunting, kept, run
-from models.vehicle.run import VehicleRun
+from models.runs import kept, scenario, stability
+from models.runs.run import VehicleRun
+from models.vehicle import hunting
 
 PROFILES = (profile.s1002(), profile.rail_60e1())
 
@@ -64,11 +65,11 @@ def test_a_second_run_of_a_vehicle_reads_both_critical_speeds(tmp_path, monkeypa
 
     def fallen(*args, **kwargs):
         calls.append(kwargs["step"])
-        return hunting.Hunting(run.np.array([30.0, 20.1]), run.np.array([4e-3, 1e-4]), 25.3)
+        return hunting.Hunting(np.array([30.0, 20.1]), np.array([4e-3, 1e-4]), 25.3)
 
-    monkeypatch.setattr(run, "fall", fallen)
-    monkeypatch.setattr(run.linear, "critical_speed", lambda *a, **k: calls.append("linear") or 24.2)
-    found = [VehicleRun(scenario.read(file)) for _ in range(2)]
+    monkeypatch.setattr(stability, "fall", fallen)
+    monkeypatch.setattr(stability.linear, "critical_speed", lambda *a, **k: calls.append("linear") or 24.2)
+    found = [VehicleRun(scenario.read(file)).stability for _ in range(2)]
     for one in found:
         assert (one.critical_speed, one.limit_cycle.critical) == (24.2, 25.3)
         assert one.limit_cycle.speed.tolist() == [30.0, 20.1]

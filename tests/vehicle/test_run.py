@@ -10,19 +10,20 @@ import pytest
 from contact.errors import ContactError
 from contact.friction import Friction
 from contact.geometry import profile
-from models.life import checkpoint, declared_set, result
+from models.life import declared_set
 from models.life.scale import Workers
-from models.life.scenario import Declaration, Methods, Profiles, Recording, Scenario
-from models.life.scenario import read as read_scenario
-from models.life.spectra import Irregularities
-from models.life.torque import Torque
-from models.life.track import Curve, Track
 from models.life.wear import Life
-from models.vehicle import assess, drawing, report
+from models.runs import checkpoint, report, result
+from models.runs.run import VehicleRun
+from models.runs.scenario import Declaration, Methods, Profiles, Recording, Scenario
+from models.runs.scenario import read as read_scenario
+from models.runs.torque import Torque
+from models.vehicle import assess, drawing
 from models.vehicle.declared import read
 from models.vehicle.kernels.layout import Axis
-from models.vehicle.run import VehicleRun
 from models.vehicle.simulation import SIDES
+from models.vehicle.spectra import Irregularities
+from models.vehicle.track import Curve, Track
 from tests.notebooks import drawn, parsed, words
 
 
@@ -166,6 +167,7 @@ def test_report_has_no_nan_and_names_the_limits(whole):
     assert "Prud" in text
     assert "nan" not in text.split("<picture>")[0]
     assert "doctype" in text.lower()
+    assert "contact run --critical-speed" in text  # not found unless asked for
 
 
 def test_report_draws_the_vehicle_with_a_number_for_each_force_element():

@@ -11,12 +11,12 @@ from contact.geometry import profile
 from contact.geometry.surfaces import RailSurface
 from examples.crossing import turnout
 from fmu_src import catalogue, track
-from models.life import declared_set, result
-from models.life.scenario import read as read_scenario
-from models.vehicle import report
+from models.life import declared_set
+from models.runs import report, result
+from models.runs.run import VehicleRun
+from models.runs.scenario import read as read_scenario
 from models.vehicle.declared import read
 from models.vehicle.kernels.layout import Book
-from models.vehicle.run import VehicleRun
 from models.vehicle.sections import RailSection
 from tests.vehicle.parts import simulation
 

@@ -12,16 +12,16 @@ from contact.geometry import profile
 from contact.geometry.surfaces import Flat, WheelSurface
 from contact.instance.workspace import closed_ledger
 from fmu_src import catalogue
-from models.life import declared_set, result
-from models.life.scenario import read as read_scenario
-from models.life.track import Track
-from models.vehicle import report
+from models.life import declared_set
+from models.runs import report, result
+from models.runs.run import VehicleRun
+from models.runs.scenario import read as read_scenario
 from models.vehicle.course import lay
 from models.vehicle.declared import read
 from models.vehicle.kernels.layout import Book
 from models.vehicle.ledgers import ledger
-from models.vehicle.run import VehicleRun
 from models.vehicle.simulation import Simulation
+from models.vehicle.track import Track
 from tests.vehicle.parts import FAST, simulation
 
 RADIUS, SPEED = 0.46, 20.0  # [m], [m/s]

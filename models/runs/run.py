@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import replace
 from functools import cached_property
 from typing import Any
@@ -12,55 +12,21 @@ import numpy as np
 from contact.accumulation import Histogram
 from contact.arrays import Array
 from contact.errors import ContactError
-from contact.geometry import conicity
-from ..life.scenario import Scenario
-from ..life.track import Track
-from ..life.trust import StepError, Trust
-from . import linear
-from .course import SPACING, lay
-from .declared import VehicleDeclaration
-from .duration import doubt_duration
-from .hunting import Hunting, fall
-from .kept import kept
-from .kernels.layout import Axis, Book, Sum, TrackFrame, TrackRow
-from .ledgers import BODIES, fill, ledger
+from ..vehicle import linear
+from ..vehicle.course import SPACING, lay
+from ..vehicle.declared import VehicleDeclaration
+from ..vehicle.duration import doubt_duration
+from ..vehicle.kernels.layout import Book, Sum
+from ..vehicle.ledgers import BODIES, fill, ledger
+from ..vehicle.simulation import SIDES, ContactOptions, Simulation
+from ..vehicle.track import Track
 from .notebook import of_run
-from .simulation import SIDES, ContactOptions, Simulation
+from .scenario import Scenario
+from .series import columns, sample
+from .stability import Stability
+from .trust import StepError, Trust
 
-#: Column of the time series → unit and meaning.
-TRACK = {
-    "distance": ("m", "distance of the vehicle's reference"),
-    "time": ("s", "time"),
-    "speed": ("m/s", "speed"),
-    "curvature": ("1/m", "curvature of the track, positive to the right"),
-    "cant": ("rad", "cant angle, positive where the left rail is higher"),
-}
-BODY = {
-    "lateral": ("m", "lateral displacement in the frame of the ideal track"),
-    "vertical": ("m", "vertical displacement downwards"),
-    "roll": ("rad", "roll in the frame of the ideal track"),
-    "yaw": ("rad", "yaw in that frame, clockwise seen from above"),
-    "lateral_acceleration": (
-        "m/s2",
-        "lateral acceleration felt in the plane of the track; mean since the last sample",
-    ),
-}
-WHEEL = {
-    "lateral_force": ("N", "Y, force of the wheel on the rail outwards; mean since the last sample"),
-    "vertical_force": ("N", "Q, force of the wheel on the rail downwards; mean since the last sample"),
-    "longitudinal_force": ("N", "force of the rail on the wheel forwards; mean since the last sample"),
-    "T_gamma": ("N", "T-gamma of all patches; mean since the last sample"),
-    "dissipation": ("N", "creep forces times creepages; mean since the last sample"),
-    "contact_angle": ("rad", "contact angle of the patch with the largest normal force"),
-    "longitudinal_creepage": ("1", "its longitudinal creepage"),
-    "lateral_creepage": ("1", "its lateral creepage"),
-    "max_pressure": ("Pa", "greatest pressure of all patches"),
-    "patches": ("1", "number of patches"),
-    "least_lateral_force": ("N", "least Y of all steps since the last sample"),
-    "largest_lateral_force": ("N", "largest Y of all steps since the last sample"),
-    "least_vertical_force": ("N", "least Q of all steps since the last sample"),
-    "largest_vertical_force": ("N", "largest Q of all steps since the last sample"),
-}
+#: Energies of a run → meaning.
 BALANCE = {
     "drive": "delivered by what keeps the speed",
     "weight": "delivered by gravity",
@@ -77,11 +43,8 @@ _CREEPAGE = "_longitudinal_creepage"
 _LONGEST_STEP, _SHORTEST_STEP = 5e-4, 5e-5  # [s]
 #: The error of the step is estimated as far as this beyond the settling and the beginning of the first circle [m].
 _PIECE = 40.0
-#: Amplitudes of the equivalent conicity in the report [m], and the frequency up to which a rail as one mass is right [Hz].
-CONICITY_AT, RIGHT_BELOW = (1e-3, 3e-3), 150.0
-#: The nonlinear critical speed: greatest speed [m/s], least one over the greatest, and deceleration [m/s²].
-FASTEST_CYCLE, SLOWEST_CYCLE, DECELERATION = 150.0, 0.3, 4.0
-_ABOVE_CRITICAL = 1.2
+#: Rounding of a distance that is a sum of steps [m].
+_ROUND = 1e-6
 #: Longest step with flats, polygons, slices and closely measured tracks [s]: the peak of an impact is then within 1.7 % of
 #: that of half the step.
 _LONGEST_UNEVEN = 1e-4
@@ -163,6 +126,9 @@ class VehicleRun:
             )
         doubt_duration(scenario.name, track, (self.distance, d.length), self.step, 2 * len(vehicle.wheelsets))
         self._counted, self._distance = 0.0, 0.0
+        circles = [curve.start + curve.transition for curve in d.track.curves]
+        self._piece = min(d.length, max(d.recording.settling, min(circles, default=0.0)) + _PIECE)
+        self._at_piece = np.zeros(2)  # energy and worn volume over the distance that is counted there [J/m], [m³/m]
         self._before = self.simulation.state.u.copy()
         self._rows: list[Array] = []
 
@@ -192,6 +158,11 @@ class VehicleRun:
         """Return the largest factor by which a small motion grows in a step."""
         return linear.amplification(self._on_straight(self.scenario.slowest), self.step)
 
+    @cached_property
+    def stability(self) -> Stability:
+        """Modes, conicities and critical speeds, found when they are read."""
+        return Stability(self.scenario, self._options, self._on_straight, self.step)
+
     @property
     def steps(self) -> int:
         return int(self.simulation.state.books[Book.STEPS])
@@ -204,7 +175,7 @@ class VehicleRun:
     @property
     def done(self) -> bool:
         """True if the whole length has been run."""
-        return self.distance >= self.scenario.declared.length
+        return self.distance >= self.scenario.declared.length - _ROUND
 
     @property
     def share(self) -> float:
@@ -220,9 +191,9 @@ class VehicleRun:
             If a wheel leaves its rail. The message contains the place.
         """
         simulation, h, settings = self.simulation, self.step, self.simulation.benches.settings
-        speed = self.scenario.speed(self.distance)
+        speed, had_piece = self.scenario.speed(self.distance), self._has_piece
         many = max(round(self.scenario.declared.recording.spacing / (speed * h)), 1)
-        counts = self.distance >= self.scenario.declared.recording.settling
+        counts = self.distance >= self.scenario.declared.recording.settling - _ROUND
         settings["distance"] = h * speed if counts else 0.0
         self._set_torques(0.5 * many * h * speed)
         try:
@@ -234,6 +205,9 @@ class VehicleRun:
             on_profiles = ~simulation.on_surfaces
             self._counted += h * speed * float(simulation.state.sums[on_profiles, Sum.DISSIPATION].sum())
         self._sample(many * h)
+        if self._has_piece and not had_piece and self._distance > 0.0:
+            volume = sum(histogram.volume for histogram in self.damage().values())
+            self._at_piece[:] = self.energy / self._distance, volume / self._distance
 
     def _set_torques(self, ahead: float) -> None:
         """Set the torques of the axles to those of the middle of this sample, which is `ahead` [m] of the vehicle."""
@@ -247,35 +221,9 @@ class VehicleRun:
 
     def _sample(self, elapsed: float) -> None:
         """Add a row to the time series and clear the sums."""
-        simulation = self.simulation
-        state, frames = simulation.state, simulation.scratch.frames
-        s = simulation.distance
-        track = simulation.model.track
-        track = track[:, np.searchsorted(track[TrackRow.PLACE], s, "right") - 1]
-        row = [s, simulation.time, track[TrackRow.SPEED], track[TrackRow.CURVATURE], track[TrackRow.CANT]]
-        rates = (state.u[:, Axis.Y] - self._before[:, Axis.Y]) / elapsed
-        turning = frames[:, TrackFrame.RATE_Z] * state.u[:, Axis.X] - frames[:, TrackFrame.RATE_X] * state.u[:, Axis.Z]
-        felt = rates + turning - 9.81 * frames[:, TrackFrame.SIN_CANT]
-        for i, q in enumerate(state.q):
-            row += [q[Axis.Y], q[Axis.Z], q[Axis.ROLL], q[Axis.YAW], felt[i]]
-        for (_, side), sums, wheel in zip(self.scenario.wheel_names, state.sums, simulation.wheels, strict=True):
-            lateral, *means = sums[Sum.LATERAL : Sum.LEAST_LATERAL] / sums[Sum.STEPS]
-            least, largest, *vertical = sums[Sum.LEAST_LATERAL :]
-            if side == "right":  # the sums are those of the force on the wheel to the right, Y is outwards on the rail
-                lateral, least, largest = -lateral, -largest, -least
-            row += [
-                lateral,
-                *means,
-                wheel["angle"],
-                wheel["creep_x"],
-                wheel["creep_y"],
-                wheel["pmax"],
-                wheel["patches"],
-            ]
-            row += [least, largest, *vertical]
-        state.sums[:] = 0.0
-        self._before[:] = state.u
-        self._rows.append(np.array(row))
+        self._rows.append(np.array(sample(self.simulation, self._before, elapsed)))
+        self.simulation.state.sums[:] = 0.0
+        self._before[:] = self.simulation.state.u
 
     def _repr_html_(self) -> str:
         """Return HTML for a notebook: how far the run is, the largest forces, and a sketch of Y and Q of the first axle."""
@@ -284,11 +232,7 @@ class VehicleRun:
     @property
     def columns(self) -> dict[str, tuple[str, str]]:
         """Column of the time series → unit and meaning. Blanks in names of bodies are underscores."""
-        names = [name.replace(" ", "_") for name in self.simulation.names]
-        bodies = {f"{name}_{what}": told for name in names for what, told in BODY.items()}
-        axles = [names[i] for i in self.simulation.model.wheelsets]
-        wheels = {f"{name}_{side}_{what}": told for name in axles for side in SIDES for what, told in WHEEL.items()}
-        return TRACK | bodies | wheels
+        return columns(self.simulation)
 
     @property
     def series(self) -> dict[str, Array]:
@@ -331,7 +275,7 @@ class VehicleRun:
                 (float(np.abs(row).max(initial=0.0)) for name, row in self.series.items() if name.endswith(_CREEPAGE)),
                 default=0.0,
             ),
-            speed_ratio=self.scenario.fastest / self.critical_speed,
+            speed_ratio=self.scenario.fastest / self.stability.critical_speed,
             unfinished=float(sum(curve.end > declared.length for curve in declared.track.curves)),
             deepest_rate=max(
                 (
@@ -357,87 +301,23 @@ class VehicleRun:
         return float(max((row > damage.archard.seizure_ratio * steel.hardness).mean() for row in pressures))
 
     @cached_property
-    def critical_speed(self) -> float:
-        """Linear critical speed on straight track [m/s]; inf above 150 m/s."""
-        return float(self._kept("linear", (), lambda: linear.critical_speed(self._on_straight, tolerance=2.0)))
-
-    def _kept(self, what: str, more: tuple[Any, ...], compute: Callable[[], Any]) -> Any:
-        """Return what depends on the vehicle, its profiles, friction and methods, and on `more`: computed once (`kept`)."""
-        scenario = self.scenario
-        given = (scenario.vehicle, scenario.friction, self._options, *more)
-        return kept(what, given, (*scenario.wheels, *scenario.rails, scenario.wheel, scenario.rail), compute)
-
-    @cached_property
-    def limit_cycle(self) -> Hunting | None:
-        """The fall from above the linear critical speed to `SLOWEST_CYCLE` of it, on the scenario's wheel and rail.
-
-        None if a wheel leaves its rail. It takes some seconds, once for a vehicle with its profiles, methods and step.
-        """
-        scenario = self.scenario
-        fastest = min(_ABOVE_CRITICAL * self.critical_speed, FASTEST_CYCLE)
-        slowest = max(SLOWEST_CYCLE * fastest, 2.0)
-        step = self.step * min(slowest / scenario.slowest, 1.0)
-
-        def fallen() -> list[Any] | None:
-            try:
-                found = fall(
-                    scenario.vehicle,
-                    (scenario.wheel, scenario.rail),
-                    (slowest, fastest),
-                    deceleration=DECELERATION,
-                    friction=scenario.friction,
-                    options=self._options,
-                    step=step,
-                )
-            except ContactError:
-                return None
-            return [found.speed.tolist(), found.amplitude.tolist(), found.critical]
-
-        found = self._kept("nonlinear", (slowest, fastest, step), fallen)
-        return None if found is None else Hunting(np.array(found[0]), np.array(found[1]), float(found[2]))
-
-    @cached_property
-    def conicities(self) -> tuple[float, ...]:
-        """Equivalent conicity of the scenario's wheel and rail at the amplitudes `CONICITY_AT`; empty if it has none."""
-        p = self.scenario.vehicle
-        options: dict[str, Any] = {"nominal_radius": p.radius, "gauge": p.gauge, "flange_back": p.flange_back}
-        try:
-            found = conicity(self.scenario.wheel, self.scenario.rail, CONICITY_AT, gauge_point=p.gauge_point, **options)
-        except ContactError:
-            return ()
-        return tuple(found.conicity.tolist())
-
-    def modes(self, greatest: float = 50.0) -> list[tuple[str, linear.Mode]]:
-        """Return the oscillating modes at the slowest speed up to a frequency [Hz], each with what moves most in it."""
-        simulation = self._on_straight(self.scenario.slowest)
-        free = linear.coordinates(simulation)
-        found = []
-        for mode in linear.modes(simulation):
-            if 0.05 < mode.frequency <= greatest:
-                body, axis = free[int(np.argmax(np.abs(mode.shape[: len(free)])))]
-                found.append((f"{simulation.names[body]} {Axis(axis).name.lower()}", mode))
-        return found
-
-    @cached_property
     def step_error(self) -> StepError:
-        """The error of the step: twice the difference from half the step, because the integration is of first order.
+        """The error of the step: twice the difference from half the step over the first metres, which are run once more."""
+        half = replace(self.scenario.declared.recording, step=0.5 * self.step)
+        other = VehicleRun(replace(self.scenario, declared=replace(self.scenario.declared, recording=half)))
+        mine, theirs = (self if self._has_piece else VehicleRun(self.scenario))._over_piece(), other._over_piece()
+        energy, volume = (2.0 * (a - b) / b if b > 0.0 else 0.0 for a, b in zip(mine, theirs, strict=True))
+        return StepError(float(energy), float(volume), self._piece)
 
-        The first metres are run twice more, which takes three times as long as they take in the run itself.
-        """
-        declared = self.scenario.declared
-        circles = [curve.start + curve.transition for curve in declared.track.curves]
-        length = min(declared.length, max(declared.recording.settling, min(circles, default=0.0)) + _PIECE)
+    @property
+    def _has_piece(self) -> bool:
+        return self.distance >= self._piece - _ROUND
 
-        def done(step: float) -> tuple[float, float]:
-            piece = replace(declared, length=length, recording=replace(declared.recording, step=step))
-            run = VehicleRun(replace(self.scenario, declared=piece))
-            while not run.done:
-                run.advance()
-            return run.energy, sum(histogram.volume for histogram in run.damage().values())
-
-        whole, half = done(self.step), done(0.5 * self.step)
-        energy, volume = (2.0 * (a - b) / b if b > 0.0 else 0.0 for a, b in zip(whole, half, strict=True))
-        return StepError(energy, volume, length)
+    def _over_piece(self) -> Array:
+        """Return `_at_piece`; run as far as that first."""
+        while not self._has_piece:
+            self.advance()
+        return self._at_piece
 
     @property
     def axle_load(self) -> float:
@@ -469,7 +349,7 @@ class VehicleRun:
         return {
             **{name: array.copy() for name, array in self.simulation.kept.items()},
             "before": self._before.copy(),
-            "progress": np.array([self._counted, self._distance]),
+            "progress": np.array([self._counted, self._distance, *self._at_piece]),
             "rows": np.array(self._rows).reshape(-1, len(self.columns)),
         }
 
@@ -478,5 +358,6 @@ class VehicleRun:
         for name, array in self.simulation.kept.items():
             array[:] = saved[name]
         self._before[:] = saved["before"]
-        self._counted, self._distance = saved["progress"].tolist()
+        self._counted, self._distance, *piece = saved["progress"].tolist()
+        self._at_piece[:] = piece
         self._rows = list(saved["rows"])

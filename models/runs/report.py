@@ -12,19 +12,23 @@ import numpy as np
 from contact import plot
 from contact.study.page import document, faint, html_of
 from contact.study.table import Table, number
-from ..life.report import damage_of, declaration, illustrated, trusted, warned
+from ..vehicle import assess, drawing, en14363
+from ..vehicle.ledgers import BODIES
+from ..vehicle.simulation import SIDES
 from ..wheelset.ports import INWARDS
-from . import assess, drawing, en14363
-from .ledgers import BODIES
-from .run import BALANCE, CONICITY_AT, DECELERATION, RIGHT_BELOW, VehicleRun
-from .simulation import SIDES
+from .parts import damage_of, declaration, illustrated, trusted, warned
+from .run import BALANCE, VehicleRun
+from .stability import CONICITY_AT, DECELERATION
 
+#: Frequency up to which a rail as one mass is right [Hz].
+RIGHT_BELOW = 150.0
+_NOT_ASKED = "not found: contact run --critical-speed finds it, in a minute for a vehicle and then from its notes."
 #: Ratio of the conicities at two amplitudes from which on the report warns.
 UNEQUAL = 2.0
 
 
-def page_of(run: VehicleRun) -> str:
-    """Return the run as a self-contained HTML page."""
+def page_of(run: VehicleRun, nonlinear: bool = False) -> str:
+    """Return the run as a self-contained HTML page, with the nonlinear critical speed if it is asked for."""
     scenario, d = run.scenario, run.scenario.declared
     about = [
         f"{scenario.vehicle.name} over {d.length:g} m; damage of the first {d.recording.settling:g} m is not counted. Wheel "
@@ -32,10 +36,10 @@ def page_of(run: VehicleRun) -> str:
         "Y is the force of a wheel on its rail outwards, Q that downwards. Both, and T-gamma, "
         "are means between two samples. Each patch has its own plane.",
     ]
-    return document(scenario.name, about, _parts(run))
+    return document(scenario.name, about, _parts(run, nonlinear))
 
 
-def _parts(run: VehicleRun) -> Iterator[str]:
+def _parts(run: VehicleRun, nonlinear: bool) -> Iterator[str]:
     trust = run.trust
     yield from warned(trust)
     if run.series["distance"].size:
@@ -61,7 +65,7 @@ def _parts(run: VehicleRun) -> Iterator[str]:
             yield faint(_EXPLAINED[heading])
             draw = partial(plot.time_histories, run.series["distance"], panels, xlabel="distance [m]")
             yield illustrated(draw, heading)
-    yield from _vehicle(run)
+    yield from _vehicle(run, nonlinear)
     yield "<h2>Trust</h2>"
     yield html_of(trusted(trust))
     yield faint(run.step_error.sentence)
@@ -83,7 +87,7 @@ def _parts(run: VehicleRun) -> Iterator[str]:
     yield from declaration(run.scenario, run.step, run.steps)
 
 
-def _vehicle(run: VehicleRun) -> Iterator[str]:
+def _vehicle(run: VehicleRun, nonlinear: bool = False) -> Iterator[str]:
     """Yield what runs: drawing, numbers, frequencies and stability."""
     vehicle = run.scenario.vehicle
     yield "<h2>Vehicle</h2>"
@@ -91,21 +95,24 @@ def _vehicle(run: VehicleRun) -> Iterator[str]:
     yield f'<div class="wide">{drawing.drawing(vehicle)}</div>'
     yield html_of(drawing.bodies(vehicle))
     yield html_of(drawing.elements(vehicle))
-    rows = [(f"{mode.frequency:.3g} Hz", f"{100.0 * mode.damping:.3g} %", name) for name, mode in run.modes()]
+    rows = [(f"{mode.frequency:.3g} Hz", f"{100.0 * mode.damping:.3g} %", name) for name, mode in run.stability.modes()]
     yield html_of(
         Table("Modes at the slowest speed, up to 50 Hz", [("", ""), ("damping", ""), ("most moved", "")], rows)
     )
-    at = [f"{value:.3g} at {1e3 * where:g} mm" for where, value in zip(CONICITY_AT, run.conicities, strict=False)]
-    if at and max(run.conicities) > UNEQUAL * min(run.conicities):
+    at = [
+        f"{value:.3g} at {1e3 * where:g} mm"
+        for where, value in zip(CONICITY_AT, run.stability.conicities, strict=False)
+    ]
+    if at and max(run.stability.conicities) > UNEQUAL * min(run.stability.conicities):
         yield (
             f"<p><strong>The equivalent conicity depends on the amplitude: {' and '.join(at)}. The linear critical speed "
             "is that of small motions and says little of larger ones.</strong></p>"
         )
     yield faint(
         f"Equivalent conicity (EN 15302) {' and '.join(at) or 'not found'}. Linear critical speed "
-        f"{_speed(run.critical_speed)}: "
+        f"{_speed(run.stability.critical_speed)}: "
         "the least speed at which motions of .1 mm grow, from the eigenvalues of the run's own kernel on straight ideal "
-        f"track, to 2 m/s. Nonlinear critical speed {_cycle(run)}"
+        f"track, to 2 m/s. Nonlinear critical speed {_cycle(run) if nonlinear else _NOT_ASKED}"
     )
     yield faint(
         f"A rail is one mass under each wheel. Its receptance is right below {RIGHT_BELOW:g} Hz: peaks at joints, flats and "
@@ -115,7 +122,7 @@ def _vehicle(run: VehicleRun) -> Iterator[str]:
 
 def _cycle(run: VehicleRun) -> str:
     """Return the nonlinear critical speed, and how it was found."""
-    found = run.limit_cycle
+    found = run.stability.limit_cycle
     how = (
         f"the speed at which the limit cycle ends when the speed falls by {DECELERATION:g} m/s² after a kick of 5 mm, with the "
         "same kernel and unworn profiles."

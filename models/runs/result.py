@@ -13,7 +13,7 @@ from typing import Any
 from contact.accumulation import Histogram, from_xarray, to_xarray
 from contact.errors import ContactError
 from contact.study.files import require_ending
-from ..vehicle.run import BALANCE, VehicleRun
+from .run import BALANCE, VehicleRun
 
 FORMAT = "wheelrail-contact run 1"
 #: Endings of files with the time series.
@@ -24,8 +24,8 @@ def dataset(run: VehicleRun) -> Any:
     """Return the result as an `xarray.Dataset`: time series over `distance`, and histograms of damage.
 
     The names of the histograms have prefixes like ``wheelset_1_right_wheel_``. The attributes contain the scenario, energies
-    with the prefix ``balance_`` (`models.vehicle.run.BALANCE`), measures of trust with the prefix ``trust_``
-    (`models.life.trust.TRUST`), and the error of the step with the prefix ``step_error_`` (`models.life.trust.StepError`). The
+    with the prefix ``balance_`` (`models.runs.run.BALANCE`), measures of trust with the prefix ``trust_``
+    (`models.runs.trust.TRUST`), and the error of the step with the prefix ``step_error_`` (`models.runs.trust.StepError`). The
     same scenario gives the same bytes at any time and on any machine.
     """
     import xarray
@@ -52,9 +52,10 @@ def dataset(run: VehicleRun) -> Any:
     }
     distance = series.pop("distance")
     whole = xarray.Dataset(series, {"distance": distance}, attributes)
-    for key, histogram in run.damage().items():
-        whole = _joined(whole, to_xarray(histogram), _prefix(key))
-    return whole
+    parts = [_named(to_xarray(histogram), _prefix(key)) for key, histogram in run.damage().items()]
+    for part in parts:
+        attributes |= part.attrs
+    return xarray.merge([whole, *parts], combine_attrs="override", join="exact").assign_attrs(attributes)
 
 
 def histogram(stored: Any, *key: str) -> Histogram:
@@ -119,10 +120,11 @@ def _prefix(key: tuple[str, ...]) -> str:
     return "".join(f"{part.replace(' ', '_')}_" for part in key)
 
 
-def _joined(whole: Any, part: Any, prefix: str) -> Any:
-    attributes = {f"{prefix}{name}": value for name, value in part.attrs.items()}
+def _named(part: Any, prefix: str) -> Any:
+    """Return a dataset whose variables, dimensions and attributes have a prefix."""
     renamed = part.rename({name: f"{prefix}{name}" for name in {*part.variables, *part.dims}})
-    return whole.merge(renamed, combine_attrs="override").assign_attrs(attributes)
+    renamed.attrs = {f"{prefix}{name}": value for name, value in part.attrs.items()}
+    return renamed
 
 
 __all__ = ["BALANCE", "ENDINGS", "FORMAT", "dataset", "histogram", "write", "write_series"]

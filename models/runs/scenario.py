@@ -22,17 +22,17 @@ from contact.inputs.material import STEEL, Material
 from contact.inputs.options import N_ELEMENTS, N_STRIPS
 from contact.registry import DEFAULT_NORMAL, DEFAULT_TANGENTIAL, lookup
 from contact.solver import require_resolution
+from ..toml import build, read_table
 from ..vehicle.declared import VehicleDeclaration
 from ..vehicle.declared import find as find_vehicle
 from ..vehicle.declared import read as read_vehicle
 from ..vehicle.sections import RailSection
 from ..vehicle.simulation import LONGEST_PACE, PACE, SIDES
+from ..vehicle.track import FASTEST, SLOWEST, Speed, Track
 from . import reach
-from .declared import build, read_table
 from .origin import hashed
 from .slices import Rails
 from .torque import Torque
-from .track import FASTEST, SLOWEST, Speed, Track
 from .uneven import Wheels
 
 #: Law by which profiles wear if a scenario gives neither a law nor constants of Archard (docs/understand/wear.md, Wear laws).

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import NamedTuple
 
 from contact.accumulation import Histogram
-from ..vehicle.run import VehicleRun
+from .run import VehicleRun
 from .scenario import Scenario
 from .trust import Trust
 

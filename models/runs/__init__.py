@@ -1,0 +1,1 @@
+"""A run: a scenario of a vehicle on a track, its result and its report."""
