@@ -56,7 +56,7 @@ def test_packages_are_imported_beside_modules_of_a_user_that_have_the_old_names(
 def test_the_names_of_an_installation_work_in_a_checkout(tmp_path):
     """And they give the same modules, so that objects of both names are of the same classes."""
     code = (
-        "import contact_models.vehicle.track as installed; from contact_models.life import spectra; "
+        "import contact_models.vehicle.track as installed; from contact_models.vehicle import spectra; "
         "import models.vehicle.track, models.vehicle.spectra; from contact_fmu import variables; import fmu_src.variables; "
         "assert installed is models.vehicle.track and spectra is models.vehicle.spectra and variables is fmu_src.variables"
     )
