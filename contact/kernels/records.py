@@ -408,8 +408,8 @@ ITERATION = _record(
     descending:int  1 if panels step by the Jacobian of an ellipse
     searched:int    1 once the gap outside the panels was searched
     found:int       1 if there was missed contact
-    idle:int        number of last iterations in which strips between loaded ones were idle
     parted:int      number of iterations after which panels were parted
+    stiff:int       1 if the middles of skewed strips are straightened more from here on
     events:int      of this iteration, bits of Event
     exact:int       1 if the residuals are below the tolerance
     converged:int   1 at rest

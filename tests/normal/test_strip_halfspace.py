@@ -192,12 +192,9 @@ def test_the_largest_pressure_over_the_load_is_smooth_in_the_flange_root(at):
     assert noise.max() < 0.03
 
 
-@pytest.mark.parametrize(("kind", "most"), [("noisy", 9), ("nearly flat", 1), ("near-conformal", 0)])
+@pytest.mark.parametrize(("kind", "most"), [("noisy", 4), ("nearly flat", 1), ("near-conformal", 0)])
 def test_rough_and_flat_gaps_converge(kind, most):
-    """Of 500 cases each 16, 12 and 3 did not: strips at their least length, and mixing, went round in circles.
-
-    Five of the noisy ones come to rest with one strip at more than twice the pressure of its neighbours: the status says so.
-    """
+    """Of 500 cases each 16, 12 and 3 did not: strips at their least length, and mixing, went round in circles."""
     rng, solver, missed = np.random.default_rng(7), contact.Solver(tangential="linear_saturated"), 0
     for _ in range(500):
         separation = KINDS[kind](rng)

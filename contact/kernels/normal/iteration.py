@@ -17,12 +17,12 @@ from typing import Any, NamedTuple
 
 from contact.core import kernel
 from contact.kernels.normal.brackets import damp_turns, keep_between, note_sides
-from contact.kernels.normal.descent import descend, descend_offsets, has_one_run
+from contact.kernels.normal.descent import COARSE, descend, descend_offsets, has_one_run, straightening
 from contact.kernels.normal.ends import end_moves, have_idle_part
 from contact.kernels.normal.mixing import advance, mix
 from contact.kernels.normal.panels import EARLY_GHOST, GHOST, extend_to_ghosts, start_panels
 from contact.kernels.normal.partition import cut_idle, have_gap, join_panels, part_panels, remove_unloaded
-from contact.kernels.normal.residuals import fill_residuals, find_pressures
+from contact.kernels.normal.residuals import fill_residuals, find_pressures, is_stiff, stands_alone
 from contact.kernels.normal.strip_system import edge_displacements
 from contact.kernels.normal.turned import turn_panels
 from contact.kernels.rows import Event, Iterate, Vector
@@ -41,12 +41,11 @@ FREEZE = 16
 PLAIN = 22
 #: The same of strips whose offsets count in full. Skewed strips are mixed then too, as long as their residuals fall.
 PLAIN_SKEWED = 18
-#: Iteration from which on strips that are not in line take half the step. A few of them swing for ever.
+#: Iteration from which on strips that are not in line take half the step, and few of them are straightened more. Some swing
+#: for ever.
 DAMPED = 24
 #: Iteration from which on the ends keep between the places from which they moved outwards and inwards.
 BRACKET = 12
-#: Iterations after which strips that are idle between loaded ones count as a gap.
-LASTS = 3
 #: How often panels are parted from one start: parts that grow together again would be parted for ever.
 MOST_PARTED = 3
 #: Iterations in which a warm start has to come to rest. Then the iteration starts again from ANALYN's solution.
@@ -74,7 +73,7 @@ def _reset(problem, warm, state):
     """Set what belongs to a new start."""
     state.begun, state.warm = state.number, warm
     state.approach = problem.result.approach - problem.touch  # ANALYN's, until the first pressures are known
-    state.mixed, state.descending, state.searched, state.parted, state.idle = 0, 0, 0, 0, 0
+    state.mixed, state.descending, state.searched, state.parted, state.stiff = 0, 0, 0, 0, 0
     state.last_error, state.best = math.inf, math.inf
 
 
@@ -137,7 +136,8 @@ def _evaluate(problem, state):
     cut = age < FREEZE and have_idle_part(n, state.n_panels, vectors)
     if not cut:
         edge_displacements(panels, state.n_panels, own, skewed, problem.unit)
-    state.error, state.load = fill_residuals(n, n * state.n_panels, state.approach, cut, skewed, vectors)
+    weight = straightening(n, state.stiff) if skewed else 0.0
+    state.error, state.load = fill_residuals(n, n * state.n_panels, state.approach, cut, skewed, weight, vectors)
     before = state.n_panels
     state.n_panels = remove_unloaded(n, before, panels, vectors)
     if state.n_panels == 0:
@@ -192,7 +192,7 @@ def _fill_step(problem, state):
         for p in range(state.n_panels):
             width = panels[2 * p + 1] - panels[2 * p]
             descend(p * n, n, width, rule.descent, vectors, frozen)
-            if skewed:
+            if skewed and not is_stiff(straightening(n, state.stiff)):
                 descend_offsets(p * n, n, width, rule.descent, vectors)
     if skewed and age >= DAMPED:
         for i in range(n * state.n_panels):
@@ -235,7 +235,7 @@ def _part(problem, state):
     ):
         return False
     state.n_panels = part_panels(n, state.n_panels, panels, own.rule.cosines, vectors)
-    state.parted, state.idle, state.mixed, state.best = state.parted + 1, 0, 0, math.inf
+    state.parted, state.mixed, state.best = state.parted + 1, 0, math.inf
     _note_event(problem, state, Event.PARTED.value)
     return True
 
@@ -260,6 +260,19 @@ def _take(problem, state):
 
 
 @kernel
+def _stiffen(state):
+    """Straighten the middles of skewed strips more from here on. The residuals are others then."""
+    state.stiff, state.mixed, state.best = 1, 0, math.inf
+
+
+@kernel
+def _swings(problem, state):
+    """Return whether one strip stands alone, which may be a zigzag of the middles and no peak, where offsets count in full."""
+    vectors, n = problem.own.space.vectors, problem.own.rule.across.nodes.size
+    return problem.skew >= 1.0 and state.stiff == 0 and stands_alone(n * state.n_panels, vectors)
+
+
+@kernel
 def accept(problem, state):
     """Return whether the unknowns are at rest and nothing lies outside the panels. Otherwise change them by the step.
 
@@ -277,7 +290,9 @@ def accept(problem, state):
     if _part(problem, state):
         return False
     if exact or settled or calm:
-        if not _search(problem, state, GHOST):
+        if _swings(problem, state):
+            _stiffen(state)
+        elif not _search(problem, state, GHOST):
             state.converged = 1 if exact or settled else 0
             return True
     elif state.searched == 0 and state.cut == 0:
@@ -326,6 +341,9 @@ def step(problem, state):
         _start_afresh(problem, state)
         state.events = Event.AGAIN.value
     _note(problem, state, math.inf, 0.0, 0.0, 0)
+    few = problem.own.rule.across.nodes.size <= COARSE  # more strips are straightened much already
+    if problem.skew > 0.0 and few and state.stiff == 0 and state.number - state.begun == DAMPED:
+        _stiffen(state)
     if not _evaluate(problem, state):
         state.patience = state.number + 1
         return state.warm == 0

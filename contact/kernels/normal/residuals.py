@@ -4,10 +4,14 @@ import math
 
 from contact.core import kernel
 from contact.kernels.normal.between_panels import distances
-from contact.kernels.normal.descent import STRAIGHTEN
 from contact.kernels.normal.panels import half_lengths, is_between_loaded, lay_panels, place_middles
 from contact.kernels.normal.strip_system import assemble, solve_active
 from contact.kernels.rows import Vector
+
+#: Weight of straightening from which on it is stiff: the residuals themselves, as steps, would swing.
+_STIFF = 0.5
+#: Pressure of a strip over that of its neighbours, from which on it is no peak but swings, where offsets count in full.
+LONE = 2.0
 
 
 @kernel
@@ -36,7 +40,51 @@ def _bend(i, vectors):
 
 
 @kernel
-def fill_residuals(n, total, delta, cut, skewed, vectors):
+def _straighten(first, n, weight, vectors):
+    """Replace the residuals r of a panel's offsets by the steps s with s - weight·(bend by s) = r. Return their sum by load.
+
+    Where strips are far narrower than long, their straightening is stiff, and the residuals themselves would swing.
+    """
+    steps, ratios = vectors[Vector.OFFSET_R], vectors[Vector.Q1]
+    ratios[first] = 1.0
+    for i in range(first + 1, first + n - 1):
+        if not is_between_loaded(i, n, vectors):
+            ratios[i], steps[i] = 1.0, 0.0  # it makes its neighbour's step, as its middle follows that one's
+            continue
+        before, after = vectors[Vector.Y, i] - vectors[Vector.Y, i - 1], vectors[Vector.Y, i + 1] - vectors[Vector.Y, i]
+        low, high = after / (before + after), before / (before + after)
+        inverse = 1.0 / (1.0 + weight * (1.0 - low * ratios[i - 1]))
+        steps[i] = (steps[i] + weight * low * steps[i - 1]) * inverse
+        ratios[i] = weight * high * inverse
+    error = 0.0
+    for i in range(first + n - 2, first, -1):
+        if is_between_loaded(i, n, vectors):
+            beyond = steps[i + 1] if is_between_loaded(i + 1, n, vectors) else steps[i] / (1.0 - ratios[i])
+            steps[i] += ratios[i] * beyond
+            weight_here = vectors[Vector.P, i] * vectors[Vector.A, i] * vectors[Vector.HALF, i]
+            error += weight_here * abs(steps[i]) / vectors[Vector.A, i]
+    return error
+
+
+@kernel
+def stands_alone(total, vectors):
+    """Return whether one strip has the largest pressure, and both its neighbours have less than half of it."""
+    top = 0
+    for i in range(total):
+        top = i if vectors[Vector.P, i] > vectors[Vector.P, top] else top
+    before = vectors[Vector.P, top - 1] if top > 0 else 0.0
+    after = vectors[Vector.P, top + 1] if top < total - 1 else 0.0
+    return vectors[Vector.P, top] > LONE * max(before, after)
+
+
+@kernel
+def is_stiff(straighten):
+    """Return whether the offsets' residuals are steps already, with this weight of straightening."""
+    return straighten > _STIFF
+
+
+@kernel
+def fill_residuals(n, total, delta, cut, skewed, straighten, vectors):
     """Fill the residuals of all half lengths in Vector.R. Return the sum of their magnitudes, and of the strips' loads.
 
     A residual is the change of ln a that stretches a strip by the ratio of the overlap at its ends to that of a parabola.
@@ -57,8 +105,11 @@ def fill_residuals(n, total, delta, cut, skewed, vectors):
             if skewed and is_between_loaded(i, n, vectors):
                 a = vectors[Vector.A, i]
                 centred = -vectors[Vector.DIFFERENCE, i] / (4.0 * vectors[Vector.CURVATURE, i] * a)
-                change = centred - vectors[Vector.OFFSET, i] + STRAIGHTEN * _bend(i, vectors)
+                change = centred - vectors[Vector.OFFSET, i] + straighten * _bend(i, vectors)
                 change = min(max(change, -a), a)
                 vectors[Vector.OFFSET_R, i] = change
-                error += weight * abs(change) / a
+                error += weight * abs(change) / a if not is_stiff(straighten) else 0.0
+    if skewed and not cut and is_stiff(straighten):
+        for p in range(total // n):
+            error += _straighten(p * n, n, straighten, vectors)
     return error, load

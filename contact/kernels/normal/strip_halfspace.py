@@ -33,8 +33,6 @@ from contact.kernels.rows import Sample, Strip, Vector
 MAX_ITERATIONS = 60
 #: An iterate that did not converge is returned if it changes by less than this; otherwise ANALYN's solution is.
 USABLE = 0.02
-#: Pressure of a strip over that of its neighbours, from which on it is no peak but swings, where offsets count in full.
-LONE = 2.0
 #: Largest mean slope of the line of the strips' middles at which strips count as in line.
 SLIGHT = 0.045
 #: Distance of a patch from the end of the data, over its width, below which the data cut it off.
@@ -133,17 +131,6 @@ def _level_spurs(n, n_panels, vectors):
 
 
 @kernel
-def _stands_alone(total, vectors):
-    """Return whether one strip has the largest pressure, and both its neighbours have less than half of it."""
-    top = 0
-    for i in range(total):
-        top = i if vectors[Vector.P, i] > vectors[Vector.P, top] else top
-    before = vectors[Vector.P, top - 1] if top > 0 else 0.0
-    after = vectors[Vector.P, top + 1] if top < total - 1 else 0.0
-    return vectors[Vector.P, top] > LONE * max(before, after)
-
-
-@kernel
 def _report(problem, delta, n_panels):
     """Write the strips and their resultants, where ANALYN's still are. Return the number of strips."""
     own, strips, result, sep = problem.own, problem.own.strips, problem.result, problem.sep
@@ -205,12 +192,11 @@ def _solve(sep, case, own, result):
         return n_strips
     remember(n_panels if state.number - state.begun < FREEZE else 0, n, start_low, start_high, skew > 0.0, own)
     spur = _level_spurs(n, n_panels, space.vectors)
-    swings = skew >= 1.0 and _stands_alone(n * n_panels, space.vectors)
     count = _report(problem, state.approach, n_panels)
     result.pmax = peak_between_strips(sep, count, unit, own)
     acceptable = CLOSE * math.sqrt(tolerance) if skew > 0.0 else ACCEPTABLE
     rough = spur or state.error > max(acceptable, ACCEPTABLE) * state.load
-    if ((not converged and rough) or swings) and result.status != Status.OUT_OF_RANGE:
+    if not converged and rough and result.status != Status.OUT_OF_RANGE:
         result.status = Status.NOT_CONVERGED
     elif result.status == Status.OUT_OF_RANGE:
         low, high = panels[0], panels[2 * n_panels - 1]
