@@ -24,6 +24,7 @@ from contact.kernels.normal.ends import SPUR
 from contact.kernels.normal.iteration import ACCEPTABLE, CLOSE, FREEZE, TOLERANCE, Problem, begin, finish, step
 from contact.kernels.normal.orientation import is_image, turn_back, turn_samples
 from contact.kernels.normal.peak import peak_between_strips
+from contact.kernels.normal.residuals import stands_alone
 from contact.kernels.normal.start import face, forget, recall, remember
 from contact.kernels.normal.turned import turn_aspects
 from contact.kernels.records import MAX_PATCHES
@@ -195,8 +196,9 @@ def _solve(sep, case, own, result):
     count = _report(problem, state.approach, n_panels)
     result.pmax = peak_between_strips(sep, count, unit, own)
     acceptable = CLOSE * math.sqrt(tolerance) if skew > 0.0 else ACCEPTABLE
+    alone = skew >= 1.0 and stands_alone(n * n_panels, space.vectors)
     rough = spur or state.error > max(acceptable, ACCEPTABLE) * state.load
-    if not converged and rough and result.status != Status.OUT_OF_RANGE:
+    if ((not converged and rough) or alone) and result.status != Status.OUT_OF_RANGE:
         result.status = Status.NOT_CONVERGED
     elif result.status == Status.OUT_OF_RANGE:
         low, high = panels[0], panels[2 * n_panels - 1]
