@@ -262,8 +262,8 @@ class Bench(NamedTuple, Generic[Kind]):
     `search`, `own` and `damage_parameters` hold sizes and constants. `case` holds methods, material and friction.
     `patch_case` holds the same for the current patch. `memory` is the start for the next call: the number of patches,
     then one piece for each of MAX_PATCHES, then the deflection of the rail. `rail` holds its springs, `roots` and `moved`
-    are for the search of the deflection. `offset` is the displacement of the wheel against its
-    wheelset, `displaced` the motion with it. `contacts` and `total` are the results. `ledger` accumulates damage.
+    are for the search of the deflection, the last root for that of the height. `offset` is the displacement of the wheel
+    against its wheelset, `displaced` the motion with it. `contacts` and `total` are the results. `ledger` accumulates damage.
     """
 
     search: Kind

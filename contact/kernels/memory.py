@@ -259,7 +259,7 @@ def lay_bench(
     contacts, end = records(block, end, MAX_PATCHES, CONTACT)
     total, end = records(block, end, 1, TOTAL)
     rail, end = records(block, end, 1, ELASTIC_RAIL)
-    roots, end = records(block, end, 2, ROOT)
+    roots, end = records(block, end, 3, ROOT)
     moved, end = records(block, end, 1, GIVEN)
     offset, end = records(block, end, 1, WHEEL_OFFSET)
     displaced, end = records(block, end, 1, GIVEN)

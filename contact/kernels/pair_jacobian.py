@@ -23,18 +23,11 @@ from contact.kernels.geometry.settle import settle
 from contact.kernels.jacobian import ITERATED, SMALL, TOLERANCE, creepage_step, has_tangent, is_even, scale_friction
 from contact.kernels.memory import CREEPS, PAIR_ROWS
 from contact.kernels.normal.tangent import follow, loaded_strips
-from contact.kernels.pair import (
-    add_wrench,
-    clear_contact,
-    clear_total,
-    pressure_wrench,
-    report,
-    set_case,
-    space_of_patch,
-)
+from contact.kernels.pair import set_case, space_of_patch
 from contact.kernels.pipeline import press_case, roll_case
 from contact.kernels.records import MAX_PATCHES, SLOWEST
 from contact.kernels.result import clear, clear_forces
+from contact.kernels.resultants import add_wrench, clear_contact, clear_total, pressure_wrench, report
 from contact.kernels.rows import Moved, Sep
 from contact.kernels.together import COPIES, fits_together, roll_together, sum_copy
 

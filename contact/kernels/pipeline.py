@@ -152,13 +152,9 @@ def _roll(n, case, own, result):
         first = last
 
 
-@entry
-def press_case(sep: Samples, case: Case, own: Workspace, result: Result) -> int:
-    """Solve the normal problem; return the strip count."""
-    n = press(sep, case, own, result)
-    if n == 0:
-        return 0
-
+@kernel
+def complete_pressure(sep, n, case, own, result):
+    """Fill what follows from the pressures of `n` > 0 strips: gap error, fields, largest pressure, size of the patch."""
     result.gap_error = gap_error(sep, n, case, own, result)
     elements, strips, fields = own.rule.elements, own.strips, own.fields
     area, x_low, x_high = 0.0, math.inf, -math.inf
@@ -181,6 +177,14 @@ def press_case(sep: Samples, case: Case, own: Workspace, result: Result) -> int:
         tilt, _ = surface_at(sep.y, sep.tilt, at)
         y_low, y_high, least, most = min(y_low, at), max(y_high, at), min(least, tilt), max(most, tilt)
     result.length, result.width, result.bend = x_high - x_low, y_high - y_low, math.atan(most) - math.atan(least)
+
+
+@entry
+def press_case(sep: Samples, case: Case, own: Workspace, result: Result) -> int:
+    """Solve the normal problem; return the strip count."""
+    n = press(sep, case, own, result)
+    if n > 0:
+        complete_pressure(sep, n, case, own, result)
     return n
 
 

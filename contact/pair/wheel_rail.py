@@ -196,7 +196,7 @@ class WheelRailPair(AnyPair):
             [rad], for surfaces. It decreases when rolling forward: the angle -rotation of the wheel is at the bottom.
         vertical : float
             Vertical force on the wheel [N] ≥ 0 that normal and friction forces carry together, by the methods of this
-            pair; instead of `load` and `penetration`. It takes five to ten times as long.
+            pair; instead of `load` and `penetration`. Like `load` it takes about three times as long as a given height.
         force, torque : float
             Longitudinal force on the wheelset [N], or drive torque about the axle [N m], the contact's moment about y; both
             positive when driving. The rotation that gives it is found, from `velocity.spin` on; it is `PairSolution.spin`.
@@ -293,7 +293,7 @@ class WheelRailPair(AnyPair):
         jacobian = self._derive(mode, self._motion[0], load, penetration, vertical) if derivatives else None
         found = self._answer.solution(code, given[_SPIN], jacobian)
         doubt_gap(found.gap_error, self._gap_limit, self.pair.told)
-        doubt_strips(found.bend, BEND, bool(self.bench.case[0]["conformal"]), self.pair.told)
+        doubt_strips(found.bend, BEND, self._methods["conformal"], self.pair.told)
         return found
 
     def _derive(

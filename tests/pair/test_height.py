@@ -5,6 +5,7 @@ import math
 import numpy as np
 import pytest
 
+from contact import Status
 from contact.geometry import profile
 from contact.geometry.surfaces import SurfacePair
 from contact.geometry.wheelset import Pair, Pose, Velocity
@@ -79,3 +80,25 @@ def test_the_answer_under_a_load_does_not_depend_on_the_poses_before():
         assert other.max_pressure == pytest.approx(answers[0].max_pressure, rel=1e-4)
         np.testing.assert_allclose(other.force, answers[0].force, atol=1e-5 * 80e3)
         assert pytest.approx(80e3, rel=1e-5) == other.Q
+
+
+@pytest.mark.parametrize("kind", ["load", "vertical"])
+def test_three_or_four_trials_find_the_height(kind):
+    """There were ten, and each of them was a whole solution."""
+    pair, counts = WheelRailPair(Pair(WHEEL, RAIL)), []
+    for y in np.linspace(-4e-3, 6e-3, 21):
+        assert pair.solve(Pose(y=y), VELOCITY, **{kind: 80e3}).status is not Status.NOT_CONVERGED
+        counts.append(int(pair.bench.roots["evaluations"][-1]) - 1)  # the first one is first touch
+    assert np.mean(counts) < 4.0
+    assert max(counts) <= 7
+
+
+@pytest.mark.parametrize("kind", ["load", "vertical"])
+def test_an_answer_under_a_load_has_the_same_bits_whatever_was_solved_before(kind):
+    pair, pose = WheelRailPair(Pair(WHEEL, RAIL)), Pose(y=5.01e-3, yaw=2e-3)
+    expected = pair.solve(pose, VELOCITY, **{kind: 80e3})
+    for before in (Pose(y=5.0e-3, yaw=2e-3), Pose(y=-3e-3), Pose(y=6.6e-3, yaw=-2e-3)):
+        pair.solve(before, VELOCITY, load=60e3)
+        found = pair.solve(pose, VELOCITY, **{kind: 80e3})
+        np.testing.assert_array_equal(found.force, expected.force)
+        assert found.z == expected.z

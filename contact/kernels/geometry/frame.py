@@ -98,10 +98,26 @@ def positions(motion: Record, frame: Frame, wheel: Array, n_wheel: int, patch: R
 
 
 @kernel
-def half_curvature(
-    wheel: Array, n_wheel: int, j: int, u: float, tilt: float, r: float, axis: Direction, arm: float
-) -> float:
-    """Return A [1/m], half the second derivative along x of the gap at the trace point `u`, exact for any yaw and roll.
+def outline(wheel: Array, n_wheel: int, j: int, u: float, arm: float) -> float:
+    """Return the curvature k of the trace line at `u` [1/m]: of the arc through its points at `arm` on both sides.
+
+    The profiles' own second derivatives are noise.
+    """
+    low, high = max(u - arm, wheel[Curve.Y, 0]), min(u + arm, wheel[Curve.Y, n_wheel - 1])
+    while j > 0 and wheel[Curve.Y, j] > low:
+        j -= 1
+    v0, m0 = at(wheel, j, low)
+    v1, m1 = at(wheel, advance(wheel, n_wheel, j, high), high)
+    chord = math.sqrt((high - low) ** 2 + (v1 - v0) ** 2)
+    # the sine of half the angle between both tangents, from sine and cosine of the whole one
+    per_length = 1.0 / math.sqrt((1.0 + m0 * m0) * (1.0 + m1 * m1))
+    turn = (m0 - m1) * per_length / math.sqrt(2.0 + 2.0 * (1.0 + m0 * m1) * per_length)
+    return 2.0 * turn / chord if chord > 0.0 else 0.0
+
+
+@kernel
+def half_curvature(slope: float, k: float, tilt: float, r: float, axis: Direction) -> float:
+    """Return A [1/m], half the second derivative along x of the gap at a point of the trace line, exact for any yaw and roll.
 
     The surface is F = rho - R(d) = 0, where d is the distance along the axle l and rho the distance from it. At a point
     of the trace line F_x = 0. So the height v along the plane's normal N has v_xx = -F_xx/F_v. With the ring's tangent
@@ -116,24 +132,15 @@ def half_curvature(
 
             2 A cos D = a (1 - s²)/(1 - k s²/a).
 
-    k is the curvature of the arc through the trace line's points at `arm` on both sides, because the profiles' own
-    second derivatives are noise. `tilt` is the slope of the trace line in track coordinates, `axis` the direction of
-    the axle.
+    k is that of `outline`, `slope` the slope of the trace line in the plane and `tilt` that in track coordinates, `axis` the
+    direction of the axle.
     """
     lx, ly, lz = axis
-    slope = at(wheel, j, u)[1]
     normal_y, normal_z = -tilt / math.sqrt(1.0 + tilt * tilt), 1.0 / math.sqrt(1.0 + tilt * tilt)
     nl = normal_y * ly + normal_z * lz  # -R'/√(1 + R'²)
     across2 = 1.0 / (1.0 - nl * nl)  # 1 + R'²
     ring, s2 = 1.0 / (r * math.sqrt(across2)), lx * lx * across2
-    low, high = max(u - arm, wheel[Curve.Y, 0]), min(u + arm, wheel[Curve.Y, n_wheel - 1])
-    while j > 0 and wheel[Curve.Y, j] > low:
-        j -= 1
-    v0, m0 = at(wheel, j, low)
-    v1, m1 = at(wheel, advance(wheel, n_wheel, j, high), high)
-    chord = math.sqrt((high - low) ** 2 + (v1 - v0) ** 2)
-    outline = 2.0 * math.sin(0.5 * (math.atan(m0) - math.atan(m1))) / chord if chord > 0.0 else 0.0
-    more = min(outline * s2 / ring, _MOST)
+    more = min(k * s2 / ring, _MOST)
     return 0.5 * ring * (1.0 - s2) / (1.0 - more) * math.sqrt(1.0 + slope * slope)
 
 
@@ -144,7 +151,7 @@ def sample(
     """Fill the separation `out` at the positions `grid` or, if that is empty, over low … high.
 
     Positions over low … high are dense where the gap is small. Beyond low … high, where a profile or the patch's own
-    range ends, the gap opens at 45°.
+    range ends, the gap opens at 45°. In the second loop every sample is by itself, so that the compiler takes several at once.
     """
     y0, z0, c, s = frame
     motion, grid, wheel, rail = space.motion[0], space.grid, space.wheel_plane, space.rail_plane
@@ -154,22 +161,26 @@ def sample(
             out[Sep.Y, i] = grid[i]
     else:
         spread(wheel, n_wheel, low, high, size_of(motion), out[Sep.Y])
-    i, j, arm = 0, 0, _ARM * size_of(motion)
+    i, j, arm, slopes = 0, 0, _ARM * size_of(motion), space.work[0]
     for k in range(out.shape[1]):
         u = out[Sep.Y, k]
         v = min(max(u, low), high)
         i, j = advance(rail, n_rail, i, v), advance(wheel, n_wheel, j, v)
         height, slope = at(wheel, j, v)
-        tilt = track_slope(frame, slope)
-        py = y0 + v * c - height * s - motion.y
-        pz = z0 + v * s + height * c - motion.z + motion.radius
-        x, _, r = on_wheel(tilt, py, pz, lx, ly, lz)
         rail_height, rail_slope = at(rail, i, v)
         gap = rail_height - height + patch.approach
         out[Sep.G, k] = max(gap, 0.0) + _OPENING * abs(u - v)
-        out[Sep.A, k] = half_curvature(wheel, n_wheel, j, v, tilt, r, (lx, ly, lz), arm)
-        out[Sep.XC, k] = x - patch.x
         out[Sep.TILT, k] = 0.5 * (slope + rail_slope)
+        out[Sep.XC, k], slopes[k], out[Sep.A, k] = height, slope, outline(wheel, n_wheel, j, v, arm)
+    across, down, x = motion.y, motion.z - motion.radius, patch.x
+    for k in range(out.shape[1]):
+        v, height, slope = min(max(out[Sep.Y, k], low), high), out[Sep.XC, k], slopes[k]
+        tilt = track_slope(frame, slope)
+        py = y0 + v * c - height * s - across
+        pz = z0 + v * s + height * c - down
+        at_x, _, r = on_wheel(tilt, py, pz, lx, ly, lz)
+        out[Sep.A, k] = half_curvature(slope, out[Sep.A, k], tilt, r, (lx, ly, lz))
+        out[Sep.XC, k] = at_x - x
 
 
 @kernel

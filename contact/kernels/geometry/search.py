@@ -15,6 +15,7 @@ from contact.kernels.records import MAX_LOBES
 from contact.kernels.rows import Curve
 
 _COINCIDENT = 1e-9  # [m] distance below which points coincide
+_FLAT = 1e-300  # square of a cosine in place of one that does not exist
 _GAUSS_T = 0.5 * math.sqrt(0.6)  # outer nodes of three-point Gauss, from the middle of an interval of length 1
 _USUAL_RADIUS = 0.46  # [m] of a tape circle, for which the lengths of the search are given
 _TRANSITION = 0.25  # of the limits of distance and angle: width of the transition from one plane to two
@@ -35,6 +36,30 @@ def axle(roll: float, yaw: float) -> tuple[float, float, float]:
     return -math.sin(yaw) * math.cos(roll), math.cos(yaw) * math.cos(roll), math.sin(roll)
 
 
+@kernel
+def _trace_all(
+    wheel: Array, n: int, radius: float, tape: float, y: float, axis: tuple[float, float, float], line: Array
+) -> bool:
+    """Fill the trace line as `trace` does, if no node is too steep and none folds back. Return whether that is so.
+
+    In the first loop every node is by itself, so that the compiler takes several at once.
+    """
+    lx, ly, lz = axis
+    c2 = 1.0 - lx * lx
+    steepest, narrowest = 0.0, math.inf
+    for j in range(n):
+        d, r, rp = tape + wheel[Curve.Y, j], radius + wheel[Curve.Z, j], wheel[Curve.SLOPE, j]
+        h = math.sqrt(max(c2 - (lx * rp) ** 2, _FLAT))
+        line[Curve.Y, j] = y + d * ly - r * (rp * lx * lx * ly + h * lz) / c2
+        line[Curve.Z, j] = -radius + d * lz + r * (h * ly - rp * lx * lx * lz) / c2
+        line[Curve.SLOPE, j] = (rp * ly + h * lz) / (h * ly - rp * lz)
+    for j in range(n - 1):
+        steepest = max(steepest, abs(wheel[Curve.SLOPE, j]))
+        narrowest = min(narrowest, line[Curve.Y, j + 1] - line[Curve.Y, j])
+    steepest = max(steepest, abs(wheel[Curve.SLOPE, n - 1]))
+    return c2 - (lx * steepest) ** 2 > 0.0 and narrowest > 2.0 * _COINCIDENT
+
+
 @entry
 def trace(wheel: Matrix, n: int, radius: float, tape: float, y: float, roll: float, yaw: float, line: Matrix) -> int:
     """Fill the trace line of the wheel profile `wheel` [m]. Return its first valid node.
@@ -47,6 +72,8 @@ def trace(wheel: Matrix, n: int, radius: float, tape: float, y: float, roll: flo
     """
     lx, ly, lz = axle(roll, yaw)
     c2 = 1.0 - lx * lx
+    if _trace_all(wheel, n, radius, tape, y, (lx, ly, lz), line):
+        return 0
     first = n
     for j in range(n - 1, -1, -1):
         d, r, rp = tape + wheel[Curve.Y, j], radius + wheel[Curve.Z, j], wheel[Curve.SLOPE, j]
@@ -171,13 +198,15 @@ def lobes(line: Matrix, start: int, end: int, z: float, lobe: Lobes) -> int:
     points are reproduced with this power and with no other (benchmarks/geometry_table.py).
     """
     k, inside = -1, False
-    for j in range(start, end - 1):
+    gap, opening = line[Curve.GAP, start:end], line[Curve.OPENING, start:end]
+    for i in range(end - start - 1):
+        if gap[i] >= z and gap[i + 1] >= z and not opening[i] < 0.0 < opening[i + 1]:  # nearly everywhere
+            continue
+        j = start + i
         g0, g1 = line[Curve.GAP, j] - z, line[Curve.GAP, j + 1] - z
         m0, m1, h = line[Curve.OPENING, j], line[Curve.OPENING, j + 1], line[Curve.Y, j + 1] - line[Curve.Y, j]
         t0, t1 = 0.0, 1.0
         if g0 >= 0.0 and g1 >= 0.0:
-            if not m0 < 0.0 < m1:
-                continue
             t, g = cubic.interior_minimum(h, g0, m0, g1, m1)
             if t < 0.0 or g >= 0.0:
                 continue

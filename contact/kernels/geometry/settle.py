@@ -120,6 +120,12 @@ chosen_by(describe, {Search: _describe_curves, SurfaceSearch: _describe_surfaces
 
 
 @kernel
+def first_depth(load: float, size: float) -> float:
+    """Return a depth below first touch [m] to begin the search for a load with, for a wheel of this `size`."""
+    return min(1e-4 * (load / 1e5) ** (2.0 / 3.0) / size ** (1.0 / 3.0), DEEPEST * size)
+
+
+@kernel
 def locate(space: Search) -> int:
     """Describe the patches at motion.z and return their number. The arrays of the normal problem are not needed."""
     z = space.motion[0].z
@@ -155,7 +161,7 @@ def settle(mode: int, amount: float, space: Search) -> int:
     target, tolerance = amount ** (2.0 / 3.0), _ROUGHER if motion.changing else _TOLERANCE
     low, high, f_low, f_high = 0.0, math.inf, -target, 0.0
     size = size_of(motion)
-    p = min(1e-4 * (amount / 1e5) ** (2.0 / 3.0) / size ** (1.0 / 3.0), DEEPEST * size)
+    p = first_depth(amount, size)
     side = 0
     anew = _ANEW if motion.changing else _MAX_ITERATIONS
     patient = 15 + (_ANEW if motion.changing else 0)  # the last iterations of regula falsi

@@ -11,6 +11,9 @@ from contact.kernels.arrays import Matrix, Numbers
 from contact.kernels.normal.influence import LN_T_LOW, N_T, N_X, PER_T_STEP, PER_X_STEP, T_STEP, X_MAX
 from contact.kernels.rows import Pair
 
+#: Indices of the table lie within this mask. It tells the compiler that they are not negative: none counts from the end.
+_MASK = 0xFFFF
+
 
 @entry
 def fill_ln_X(n: int, pairs: Matrix) -> None:
@@ -48,7 +51,7 @@ def displacement(plane: Matrix, forces: Numbers, pairs: Matrix, own: int) -> flo
     u = 0.0
     for m in range(n):
         share, low, high = along[m], lows[m], highs[m]
-        row, i, j = int(rows[m]), int(low), int(high)
+        row, i, j = int(rows[m]) & _MASK, int(low) & _MASK, int(high) & _MASK
         low -= i
         high -= j
         one, other = plane[row, i], plane[row + 1, i]

@@ -159,7 +159,7 @@ def solve_active(n, n_panels, space, by_load, amount):
             i = int(vectors[Vector.INDEX, r])
             vectors[Vector.Q1, r], vectors[Vector.Q2, r] = 1.0, -vectors[Vector.GAP, i]
             for c in range(m):
-                lu[r, c] = matrix[int(vectors[Vector.INDEX, c]), i]
+                lu[r, c] = matrix[c if m == total else int(vectors[Vector.INDEX, c]), i]
         eliminate(lu, m, vectors[Vector.Q1], vectors[Vector.Q2])
         stiffness, offset = 0.0, 0.0
         for r in range(m):
