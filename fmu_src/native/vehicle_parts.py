@@ -77,7 +77,7 @@ def constants_of(own, at, begin):
 def kept_by(at):
     """Return the number of values that carry over from step to step."""
     of_bodies = 1 + (3 * 6 * at.n_bodies) + 3 * at.n_elements
-    return of_bodies + 8 * at.n_axles + 2 * at.n_axles + 2 * at.n_axles * _N_SUM + _N_BOOK
+    return of_bodies + (8 + 2 + 6) * at.n_axles + 2 * at.n_axles * _N_SUM + _N_BOOK
 
 
 @arranging
@@ -95,6 +95,7 @@ def arrange(work, end, track, n_track, at, constants):
     loads, to = matrix(work, to, n_axles, 2)
     sums, to = matrix(work, to, n_wheels, _N_SUM)
     books, to = vector(work, to, _N_BOOK)
+    gains, to = matrix(work, to, n_axles, 6)
     forces, to = matrix(work, to, n_bodies, 6)  # of the last step, for the work of what holds the bodies
     own_links, end = records(work, end, at.n_links, LINK)
     frames, end = matrix(work, end, n_bodies, _N_FRAME)
@@ -114,7 +115,7 @@ def arrange(work, end, track, n_track, at, constants):
         carray(constants.rail, (5,)),
         surface,
     )
-    state = State(q, u, inner, rails, loads, sums, books)
+    state = State(q, u, inner, rails, loads, sums, books, gains)
     return Parts(begun, model, state, Scratch(frames, forces, given, seats, wheels, power), motions), end
 
 

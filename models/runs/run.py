@@ -17,6 +17,7 @@ from ..vehicle.course import SPACING, lay
 from ..vehicle.declared import VehicleDeclaration
 from ..vehicle.duration import doubt_duration
 from ..vehicle.kernels.layout import Book, Sum
+from ..vehicle.kernels.motion import spin_rate
 from ..vehicle.ledgers import BODIES, fill, ledger
 from ..vehicle.simulation import SIDES, ContactOptions, Simulation
 from ..vehicle.track import Track
@@ -146,13 +147,8 @@ class VehicleRun:
 
     def _stable(self, vehicle: VehicleDeclaration) -> float:
         """Return an estimate of the longest stable step [s]: that of the spin of the axles, I V/(f r²) at the slowest speed."""
-        creep = 12e6  # a little above Kalker's longitudinal coefficient of a wheel under 54.5 kN (docs/check/coupling.md) [N]
-        steps = []
-        for i in self.simulation.model.wheelsets:
-            body = self.simulation.model.bodies[i]
-            stiff = creep * (float(body["load"]) / 54.5e3) ** (2.0 / 3.0)
-            steps.append(body["inertia"][1] * self.scenario.slowest / (stiff * vehicle.radius**2))
-        return float(min(steps))
+        model = self.simulation.model
+        return min(1.0 / spin_rate(model.bodies[i], vehicle.radius, self.scenario.slowest) for i in model.wheelsets)
 
     def _growth(self) -> float:
         """Return the largest factor by which a small motion grows in a step."""

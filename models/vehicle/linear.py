@@ -63,7 +63,7 @@ def coordinates(simulation: Simulation, held: tuple[str, ...] = ()) -> list[tupl
 
 
 def state_matrix(
-    simulation: Simulation, amplitude: float = 0.0, held: tuple[str, ...] = (), step: float = _INSTANT
+    simulation: Simulation, amplitude: float = 0.0, held: tuple[str, ...] = (), step: float | None = None
 ) -> Array:
     """Return the state matrix of the coordinates and velocities about the present state.
 
@@ -78,8 +78,9 @@ def state_matrix(
         sides; velocities are displaced by ten times as much per second.
     held : tuple of str
         Names of bodies that do not move.
-    step : float
-        Step of the kernel [s]. With the step of a run, the matrix times the step is the change of the state in a step.
+    step : float, optional
+        Step of a run [s]: the matrix times the step is then the change of the state in a step, and the state has the growth of
+        the wheelsets' velocities in the step before.
     """
     free = coordinates(simulation, held)
     state = simulation.state
@@ -90,6 +91,11 @@ def state_matrix(
         moving.append((state.u, (int(i), int(Axis.PITCH))))
         if simulation.model.rail[0] > 0.0:
             moving.extend((state.rails, (number, side, k)) for side in range(2) for k in range(4))
+        if step is not None:
+            moving.extend(
+                (state.gains, (number, axis)) for axis in range(6) if not simulation.model.bodies[i]["held"][axis]
+            )
+    step = step or _INSTANT
     kept = [array.copy() for array in state]
     advance = partial(simulation.advance, step) if amplitude > 0.0 else _linear_step(simulation, step)
 

@@ -143,6 +143,7 @@ class Simulation(OwnsArrays):
             loads=np.zeros((axles, 2)),
             sums=np.zeros((n_wheels, len(Sum))),
             books=np.zeros(len(Book)),
+            gains=np.zeros((axles, 6)),
         )
         self.scratch: Scratch = scratch(n, made.wheelsets.size)
         self._pairs = [

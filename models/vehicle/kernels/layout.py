@@ -211,6 +211,7 @@ class State(NamedTuple):
     loads: Matrix  # normal forces of the last step [N], shape (wheelsets, 2)
     sums: Matrix  # over the steps since it was cleared, shape (2 wheelsets, len(Sum))
     books: Numbers
+    gains: Matrix  # by how much the velocities of the wheelsets grew in the last step, shape (wheelsets, 6)
 
 
 @group

@@ -1,4 +1,4 @@
-"""Kernels that advance a vehicle: symplectic Euler with implicit rails, and the balance of energy (vehicle.md, 5)."""
+"""Kernels that advance a vehicle: a leapfrog with implicit rails and spins, and the balance of energy (vehicle.md, 5)."""
 
 from __future__ import annotations
 
@@ -7,11 +7,15 @@ from contact.kernels.arrays import Motions, Numbers, Search
 from .benches import Benches
 from .elements import pull
 from .frames import carried, drift, gyrate, lay_frames, speed_at
-from .layout import Axis, Book, Model, Scratch, State, TrackFrame
+from .layout import Axis, Body, Book, Model, Scratch, State, TrackFrame
 from .wheels import add_wheel_forces, advance_rails, count, fill_inputs, rail_energy, solve_contacts
 
 #: A normal force above this multiple of the static one is an impact.
 _IMPACT = 2.0
+#: A little above Kalker's longitudinal coefficient [N] of a wheel under this load [N] (docs/check/coupling.md).
+_CREEP, _UNDER = 12e6, 54.5e3
+#: Largest share of a difference of slip that ends in half a step for which creep is implicit.
+_MOST_IMPLICIT = 1.0
 
 
 @kernel
@@ -97,6 +101,39 @@ def _kick(model, state, scratch, h):
 
 
 @entry
+def spin_rate(body: Body, radius: float, speed: float) -> float:
+    """Return half the rate at which creep ends a difference of the spin of a wheelset from rolling [1/s], f r²/(I V)."""
+    return _CREEP * (body.load / _UNDER) ** (2.0 / 3.0) * radius * radius / (body.inertia[1] * speed)
+
+
+@kernel
+def _steady(model, state, motions, scratch, h):
+    """Make longitudinal creep implicit, and keep by how much the velocities of the wheelsets grow.
+
+    The contacts were solved for velocities that grow as in the last step. Where the slip of an axle grows otherwise, a
+    longitudinal force at its wheels, with the stiffness of creep, answers the difference.
+    """
+    for axle in range(model.wheelsets.size):
+        i = model.wheelsets[axle]
+        body, gain, forces, radius = model.bodies[i], state.gains[axle], scratch.forces[i], motions[2 * axle].radius
+        if body.held[Axis.PITCH] == 0:
+            inverse, grown = radius * radius / body.inertia[1], radius * forces[Axis.PITCH] / body.inertia[1]
+            expected = radius * gain[Axis.PITCH]
+            if body.held[Axis.X] == 0:
+                inverse += 1.0 / body.mass
+                grown += forces[Axis.X] / body.mass
+                expected += gain[Axis.X]
+            speed = max(abs(state.u[i, Axis.X]), motions[2 * axle].slowest)
+            rate = spin_rate(body, radius, speed) * inverse * body.inertia[1] / (radius * radius)
+            share = min(h * rate, _MOST_IMPLICIT)
+            answer = -share / (1.0 + share) * (h * grown - expected) / (h * inverse)
+            forces[Axis.X] += answer
+            forces[Axis.PITCH] += radius * answer
+        for j in range(6):
+            gain[j] = h * forces[j] / _inertia(body, j) if body.held[j] == 0 else 0.0
+
+
+@entry
 def place(model: Model, state: State, motions: Motions, heights: Numbers, start: float, speed: float) -> None:
     """Put the vehicle, all of whose state is zero, at rest in its nominal place at `start` [m], rolling at `speed` [m/s].
 
@@ -131,6 +168,7 @@ def move(model: Model, state: State, motions: Motions, scratch: Scratch, h: floa
     _weigh(model, state, scratch.power[2] + in_rails, work, books)
     books[Book.DAMPER] += h * scratch.power[0]
     books[Book.DISSIPATED] += h * scratch.power[1]
+    _steady(model, state, motions, scratch, h)
     _kick(model, state, scratch, h)
     drift(scratch.frames, model.bodies, state.q, state.u, speed, h)
     books[Book.DAMPER] += advance_rails(model, state, scratch.wheels, h)

@@ -38,7 +38,7 @@ def fill_inputs(model, state, s, motions, scratch):
     track = model.track
     for axle_number in range(model.wheelsets.size):
         i = model.wheelsets[axle_number]
-        q, u = state.q[i], state.u[i]
+        q, u, gain = state.q[i], state.u[i], state.gains[axle_number]
         k, d, width = place_on(track, s + model.bodies[i].place)
         t, ramp = d / width, scratch.frames[i, TrackFrame.RATE_X]
         for side in range(2):
@@ -50,10 +50,15 @@ def fill_inputs(model, state, s, motions, scratch):
             here.friction = linear(track, TrackRow.RIGHT_FRICTION + row, k, t) * model.surface[0]
             here.kinetic = linear(track, TrackRow.RIGHT_FRICTION + row, k, t) * model.surface[1]
             given.y, given.z, given.roll, given.yaw = q[Axis.Y], q[Axis.Z], q[Axis.ROLL], q[Axis.YAW] - along_y
-            given.vx, given.vy, given.vz = u[Axis.X], u[Axis.Y], u[Axis.Z]
-            given.roll_rate, given.yaw_rate, given.spin = u[Axis.ROLL], u[Axis.YAW], u[Axis.PITCH]
+            # velocities are those of half a step before: contacts are solved for where they will be at the positions
+            given.vx = u[Axis.X] + 0.5 * gain[Axis.X]
+            given.vy = u[Axis.Y] + 0.5 * gain[Axis.Y]
+            given.vz = u[Axis.Z] + 0.5 * gain[Axis.Z]
+            given.roll_rate = u[Axis.ROLL] + 0.5 * gain[Axis.ROLL]
+            given.yaw_rate = u[Axis.YAW] + 0.5 * gain[Axis.YAW]
+            given.spin = u[Axis.PITCH] + 0.5 * gain[Axis.PITCH]
             given.rail_y, given.rail_z, given.rail_roll = y + rail[0], z + rail[1], 0.0
-            given.rail_vy, given.rail_vz = u[Axis.X] * along_y + rail[2], u[Axis.X] * along_z + rail[3]
+            given.rail_vy, given.rail_vz = given.vx * along_y + rail[2], given.vx * along_z + rail[3]
             # on a ramp of the cant the rails climb: as if they turned with the frame
             given.rail_roll_rate = ramp
             given.rail_vy -= ramp * (motion.origin_z + given.rail_z)
