@@ -4,14 +4,18 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
+from pathlib import Path
 
 from contact.geometry import profile
 from contact.geometry.profile import Profile
 from contact.geometry.surfaces import WheelSurface
+from models.runs.run import VehicleRun
+from models.runs.scenario import Declaration, Methods, Profiles, Recording, Scenario
 from models.vehicle.course import lay
 from models.vehicle.declared import VehicleDeclaration, read
 from models.vehicle.sections import RailSection
 from models.vehicle.simulation import PACE, ContactOptions, Simulation
+from models.vehicle.spectra import Irregularities
 from models.vehicle.track import Track
 
 #: Methods that are compiled and solved fast.
@@ -39,3 +43,23 @@ def simulation(
     rows = lay(track or Track(), length, lambda s: speed, (seed,), settling)
     both = wheel or profile.s1002(), profile.rail_60e1()
     return Simulation(declared, rows, *both, friction, options, uneven=uneven, sections=sections)
+
+
+def scenario(**changes) -> Scenario:
+    given = {
+        "name": "short",
+        "length": 6.0,
+        "speed": 20.0,
+        "vehicle": "wheelset",
+        "recording": Recording(settling=1.0, spacing=0.25),
+        "track": Track(alignment=Irregularities(spectrum="ERRI B176 low")),
+        "methods": Methods(normal="analyn", tangential="fastrip", strips=20, elements=12),
+    }
+    declared = Declaration(**(given | changes))
+    return Scenario(declared, *Profiles().load(Path()), read(declared.vehicle))
+
+
+def completed(run: VehicleRun) -> VehicleRun:
+    while not run.done:
+        run.advance()
+    return run

@@ -2,7 +2,6 @@
 
 import dataclasses
 import math
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -15,7 +14,7 @@ from models.life.scale import Workers
 from models.life.wear import Life
 from models.runs import checkpoint, report, result
 from models.runs.run import VehicleRun
-from models.runs.scenario import Declaration, Methods, Profiles, Recording, Scenario
+from models.runs.scenario import Methods, Recording
 from models.runs.scenario import read as read_scenario
 from models.runs.torque import Torque
 from models.vehicle import assess, drawing
@@ -25,26 +24,7 @@ from models.vehicle.simulation import SIDES
 from models.vehicle.spectra import Irregularities
 from models.vehicle.track import Curve, Track
 from tests.notebooks import drawn, parsed, words
-
-
-def scenario(**changes) -> Scenario:
-    given = {
-        "name": "short",
-        "length": 6.0,
-        "speed": 20.0,
-        "vehicle": "wheelset",
-        "recording": Recording(settling=1.0, spacing=0.25),
-        "track": Track(alignment=Irregularities(spectrum="ERRI B176 low")),
-        "methods": Methods(normal="analyn", tangential="fastrip", strips=20, elements=12),
-    }
-    declared = Declaration(**(given | changes))
-    return Scenario(declared, *Profiles().load(Path()), read(declared.vehicle))
-
-
-def completed(run: VehicleRun) -> VehicleRun:
-    while not run.done:
-        run.advance()
-    return run
+from tests.vehicle.parts import completed, scenario
 
 
 @pytest.fixture(scope="module")

@@ -6,7 +6,7 @@ from models.runs.run import VehicleRun
 from models.runs.scenario import Methods, Recording
 from models.vehicle.spectra import Irregularities
 from models.vehicle.track import Curve, Track
-from tests.vehicle.test_run import completed, scenario
+from tests.vehicle.parts import completed, scenario
 
 #: Irregular track in a curve, where the flange root of the outer wheel slides.
 ROUGH = Track(
