@@ -48,7 +48,7 @@ def run(
         bool,
         typer.Option(
             "--critical-speed",
-            help="Find the nonlinear critical speed for the report: some ten seconds, once for a vehicle and its profiles.",
+            help="Find the nonlinear critical speed for the report: half a minute, once for a vehicle and its profiles.",
         ),
     ] = False,
     as_json: opt.Json = False,

@@ -57,7 +57,7 @@ class Stability:
     def limit_cycle(self) -> Hunting | None:
         """The fall from above the linear critical speed to `SLOWEST_CYCLE` of it, on the scenario's wheel and rail.
 
-        None if a wheel leaves its rail. It takes some ten seconds, once for a vehicle with its profiles, methods and step.
+        None if a wheel leaves its rail. It takes some 25 s, once for a vehicle with its profiles, methods and step.
         """
         scenario = self._scenario
         fastest = min(_ABOVE_CRITICAL * self.critical_speed, FASTEST_CYCLE)
