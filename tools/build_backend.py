@@ -116,7 +116,8 @@ def compile_in_c(root: Path, library: Path) -> None:
     if compiler is None:
         raise RuntimeError("no C compiler: install one (apt-get install gcc), or install a wheel of wheelrail-contact")
     native, given = root / "fmu_src" / "native", root / IN_C
-    parts = [root / "contact" / "c" / "wheelrail.c", *native.glob("c_library/*.c"), *native.glob("c/*.c")]
+    folders = (root / "contact" / "c", native / "c_library", native / "c")
+    parts = [path for folder in folders for path in sorted(folder.glob("*.c"))]
     (found,) = re.findall(r'__version__ = "(.*)"', (root / "contact" / "version.py").read_text(encoding="utf-8"))
     include = [f"-I{path}" for path in (given, native / "c", root / "contact" / "include")]
     flags = ["-std=c11", "-O2", "-fPIC", "-shared", "-ffp-contract=off", "-w", "-DWR_ANY", "-DKERNELS_IN_C"]

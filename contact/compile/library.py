@@ -23,8 +23,8 @@ from contact.version import __version__
 
 #: Beginning of the names of the functions that the C interface calls.
 PREFIX = "wrk"
-#: The C source of the C interface.
-C_INTERFACE = get_include().parent / "c" / "wheelrail.c"
+#: The C sources of the C interface.
+C_INTERFACE = sorted((get_include().parent / "c").glob("*.c"))
 
 
 class Added(NamedTuple):
@@ -164,7 +164,7 @@ def link_for_this_machine(folder: Path) -> None:
         return
     write_declarations(folder, ("",))
     options = ("-std=c11", "-shared", "-fPIC", "-O2", "-ffp-contract=off", "-fvisibility=hidden", *flags(folder))
-    command = [compiler, *options, "-o", str(folder / NAME), str(C_INTERFACE), str(folder / "kernels.o"), "-lm"]
+    command = [compiler, *options, "-o", str(folder / NAME), *map(str, C_INTERFACE), str(folder / "kernels.o"), "-lm"]
     done = subprocess.run(command, check=False, capture_output=True, text=True)
     sys.stdout.write(done.stderr)  # a compiler without headers or a linker is like none
 

@@ -46,7 +46,7 @@ def link(system: str, library: Path, kernels: Path, sources: Sequence[Path], hea
         unused = "-Wno-unused-parameter"
         run(*compiler(system), *options, *defined, *flags(kernels), unused, *include, "-c", path, "-o", made[-1])
 
-    for path in (C_INTERFACE, *sources, *of_system):
+    for path in (*C_INTERFACE, *sources, *of_system):
         compile_c(path, FLAGS)
     for path in (kernels / "kernels.c", kernels / "data.c") if in_c else ():
         compile_c(path, _VISIBLE)

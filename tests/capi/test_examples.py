@@ -105,7 +105,7 @@ def test_octave_gets_the_forces_of_c(in_c, built, tmp_path):
 def test_an_attacking_host_is_refused_everywhere(built, tmp_path):
     options = ("-std=gnu11", "-g", "-O1", "-fsanitize=address,undefined", "-fno-sanitize-recover=undefined")
     kernels = systems.kernels()
-    sources = (ROOT / "tests/capi/attack.c", C_INTERFACE, systems.PROCESSOR, *objects(kernels, "linux64"))
+    sources = (ROOT / "tests/capi/attack.c", *C_INTERFACE, systems.PROCESSOR, *objects(kernels, "linux64"))
     defined = ("-DWR_SEVERAL", *flags(kernels))
     run("gcc", *options, *defined, *sources, "-lm", "-o", "attack", cwd=tmp_path, library=built)
     assert "0 failures" in run("./attack", cwd=tmp_path, library=built)

@@ -2,7 +2,7 @@
 
 `ENTRIES` says for each entry its function, the type of its result and those of its arguments: ``i64``, ``f64`` and ``ptr``,
 a pointer to float64. Every function has one more argument, `given`, with `given.data`, the pointers to `tables.data`.
-The functions get valid arguments only: `contact/c/wheelrail.c` checks them.
+The functions get valid arguments only: the files of `contact/c` check them.
 """
 
 from __future__ import annotations

@@ -1,7 +1,9 @@
-/* The part of wheelrail.c with values that are allowed but that no wheel on a rail has, and with answers that leave something
- * out.  Included there once.
+/* Values that are allowed but that no wheel on a rail has, and answers that leave something out.
  *
  * The rules are those of contact.inputs.plausibility, by way of wheelrail_records.h. */
+#include <math.h>
+
+#include "internal.h"
 
 typedef struct {
     double largest, least;
@@ -47,7 +49,7 @@ int wr_contact_doubts(const wr_separation *s, const wr_case *c) {
 }
 
 int wr_pair_doubts(const wr_pair_options *o, const wr_pair_input *in) {
-    TRY(check_pair_options(o));
+    TRY(wri_check_pair_options(o));
     TRY(aligned(in, A_input));
     if (in->size != (int64_t)sizeof *in) return bad(A_input, R_STRUCT);
     const wr_motion *m = &in->motion;
@@ -59,17 +61,18 @@ int wr_pair_doubts(const wr_pair_options *o, const wr_pair_input *in) {
 
 /* Doubts about an answer of strips with this largest change of the contact angle and this error of the gap. */
 static int doubt_answer(const wr_contact_options *o, double bend, double gap_error) {
-    return doubt(U_BEND, bend) | doubt(find(0, o->normal)->interacting ? U_GAP_ERROR_INTERACTING : U_GAP_ERROR, gap_error);
+    const int interacting = wri_normal_method(o->normal)->interacting;
+    return doubt(U_BEND, bend) | doubt(interacting ? U_GAP_ERROR_INTERACTING : U_GAP_ERROR, gap_error);
 }
 
 int wr_contact_answer_doubts(const wr_contact_options *o, const wr_result *result) {
-    TRY(check_contact_options(o));
+    TRY(wri_check_contact_options(o));
     TRY(aligned(result, A_result));
     return doubt_answer(o, result->bend, result->gap_error);
 }
 
 int wr_pair_answer_doubts(const wr_pair_options *o, const wr_pair_answer *answer) {
-    TRY(check_pair_options(o));
-    TRY(check_answer_struct(answer));
+    TRY(wri_check_pair_options(o));
+    TRY(wri_check_answer_struct(answer));
     return doubt_answer(&o->patch, answer->total.bend, answer->total.gap_error);
 }
