@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 from pathlib import Path
-from typing import Any, cast
+from typing import Any, Literal, cast
 
 import numpy as np
 
@@ -35,7 +35,7 @@ def pair(case: Case) -> SurfacePair:
     wheel, rail = body(case, "W"), body(case, "R")
     if case["GAUGHT"] <= 0.0:
         y = case["RAILY0"]
-        origin = (y if case.digits["C1"] in (1, 5) else -y), case["RAILZ0"]
+        origin = mirror_of(case) * y, case["RAILZ0"]
     elif isinstance(rail, Profile):
         rail_y, rail_z = place_of_rail(rail, case["GAUGWD"], case["GAUGHT"])
         origin = rail_y, 0.0 if is_roller(case) else rail_z
@@ -50,7 +50,7 @@ def pair(case: Case) -> SurfacePair:
     return SurfacePair(
         cast(WheelSurface, wheel),
         cast(RailSurface, rail),
-        side="right" if case.digits["C1"] in (1, 5) else "left",
+        side=side_of(case),
         nominal_radius=case["NOMRADW"],
         tape=0.5 * case["FBDIST"] - case["FBPOS"],
         rail_origin=origin,
@@ -67,7 +67,7 @@ def profiles(case: Case) -> Pair | None:
     return Pair(
         cast(Profile, body(case, "W")),
         cast(Profile, body(case, "R")),
-        side="right" if case.digits["C1"] in (1, 5) else "left",
+        side=side_of(case),
         nominal_radius=case["NOMRADW"],
         gauge=case["GAUGWD"],
         gauge_point=case["GAUGHT"],
@@ -97,6 +97,16 @@ def key(case: Case) -> tuple[Any, ...]:
     return (case.digits["C1"], own_roll(case), *(case.get(name) for name in names), *sides)
 
 
+def side_of(case: Case) -> Literal["left", "right"]:
+    """Return the side of the wheel."""
+    return "right" if case.digits["C1"] in (1, 5) else "left"
+
+
+def mirror_of(case: Case) -> float:
+    """Return 1 for a right wheel, -1 for a left one."""
+    return 1.0 if side_of(case) == "right" else -1.0
+
+
 def is_roller(case: Case) -> bool:
     """Return whether the wheel stands on a roller."""
     return case.digits["C1"] in (4, 5)
@@ -123,10 +133,10 @@ def own_roll(case: Case) -> float:
     roll = float(case["DROLLR"])
     if not (is_roller(case) or abs(roll) > LARGEST_RAIL_ROLL):
         return 0.0
-    return roll if case.digits["C1"] in (1, 5) else -roll
+    return mirror_of(case) * roll
 
 
-def turned(case: Case) -> float:
+def turn_of_rail(case: Case) -> float:
     """Return the angle by which the rail's profile is turned from the file's, in its right-side form [rad]."""
     return own_roll(case) - float(0.0 if is_roller(case) else case.get("CANT", 0.0))
 

@@ -10,6 +10,7 @@ from contact.arrays import Array
 from contact.friction import Friction
 from contact.inp.case import Case
 from contact.inp.grid import bed, direction, material
+from contact.inp.laws import of_strips
 from contact.inp.reasons import refuse
 from contact.inp.results import PatchResult, Result
 from contact.inp.single import layer, require_supported
@@ -21,7 +22,6 @@ from contact.solve import solve
 
 #: Samples of a separation.
 _SAMPLES = 201
-_LAWS = {2: ("linear", "FLIN"), 3: ("rational", "FRAT"), 4: ("exponential", "FEXP")}
 
 
 class FastSingle:
@@ -39,7 +39,7 @@ class FastSingle:
         spin = case["CPHI"]
         xi = case.get("CKSI", 0.0) + spin * case["SPINYO"]
         eta = case.get("CETA", 0.0) - spin * case["SPINXO"]
-        friction = _friction(case) if digits["T"] else Friction(0.0)
+        friction = of_strips(case) if digits["T"] else Friction(0.0)
         force: Any = None
         if digits["F"] and digits["T"]:
             if digits["N"] == 0:
@@ -82,21 +82,6 @@ def strip_patch(case: Case, s: Solution, sign: float) -> PatchResult:
         "FRIC.POWER": -s.power_per_metre * s.speed,
     }
     return PatchResult(values, s)
-
-
-def _friction(case: Case) -> Friction:
-    kind = case["LAW"]
-    if case["ROWS"] != 0:
-        raise refuse(case, "strips", "V = 3")
-    if kind == 0:
-        return Friction(case["FSTAT"])
-    if kind == 6:
-        raise refuse(case, "temperature", "L = 6")
-    name, prefix = _LAWS[kind]
-    if case[f"{prefix}2"] != 0.0 or case["MEMDST"] > 0.0:
-        raise refuse(case, "strips", "friction of two terms or with memory")
-    first, kinetic = case[f"{prefix}1"], case["FKIN"]
-    return Friction(kinetic + first, kinetic, case["SABSH1"], name, velocity="local")
 
 
 def _separation(case: Case, bodies: Any, backwards: bool) -> Separation:

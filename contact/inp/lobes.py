@@ -15,6 +15,7 @@ from contact.geometry.surfaces import SurfacePair, SurfacePatch
 from contact.geometry.surfaces.frame import Frame
 from contact.halfspace import Gap
 from contact.halfspace.parts import Parts
+from contact.inp.mesh import with_distance
 from contact.instance.ownership import within
 from contact.kernels.geometry.section import AWAY
 
@@ -116,13 +117,11 @@ def _at(patch: SurfacePatch, pair: SurfacePair, angle: float) -> SurfacePatch:
     h = within(pair.distance)(frame, x, y)[:: int(mirror)]
     present = h < AWAY
     h = np.where(present, h, h[present].max() + 1e-3)
-    approach = -float(h.min())
+    patch = with_distance(patch, h)
     seen = frame if mirror > 0.0 else frame.mirrored
-    place = np.array(patch.position) + approach * seen.axes[2]
+    place = np.array(patch.position) + patch.approach * seen.axes[2]
     return replace(
         patch,
-        gap=Gap(x, patch.gap.y, h + approach),
-        approach=approach,
         frame=seen,
         angle=angle,
         wheel_position=(float(place[0]), float(place[1]), float(place[2])),

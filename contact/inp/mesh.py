@@ -73,6 +73,12 @@ class Outlines(NamedTuple):
     rail: Outline | None
 
 
+def with_distance(patch: SurfacePatch, h: Array) -> SurfacePatch:
+    """Return a patch with another distance `h` of the bodies [m], negative where they overlap."""
+    approach = -float(h.min())
+    return replace(patch, gap=Gap(patch.gap.x, patch.gap.y, h + approach), approach=approach)
+
+
 def flattened(patch: SurfacePatch, pair: SurfacePair, pose: Pose, bodies: Outlines, step: float) -> SurfacePatch:
     """Return a patch with CONTACT's distance between the rail and the mesh of the wheel.
 
@@ -93,8 +99,7 @@ def flattened(patch: SurfacePatch, pair: SurfacePair, pose: Pose, bodies: Outlin
     x, y = np.meshgrid(gap.x, gap.y if right else -gap.y[order])
     mesh = _Mesh.of(pair, pose, bodies.wheel, frame, (gap.dx, step), (x[0, 0], y[0, 0]))
     h = mesh.distance(pair, bodies.rail, frame, x, y, (gap.h - patch.approach)[order])[order]
-    approach = -float(h.min())
-    return replace(patch, gap=Gap(gap.x, gap.y, h + approach), approach=approach)
+    return with_distance(patch, h)
 
 
 def flattened_rows(
@@ -130,8 +135,7 @@ def cornered(patch: SurfacePatch, side: str, roller: Profile) -> SurfacePatch:
     points = np.concatenate(([True], np.diff(np.maximum.accumulate(roller.y)) > 0.0))
     chord = np.interp(across, roller.y[points], roller.z[points]) - np.interp(across, *fine[:, rising])
     h = patch.gap.h - patch.approach + cosine * chord[:, None]
-    approach = -float(h.min())
-    return replace(patch, gap=Gap(patch.gap.x, patch.gap.y, h + approach), approach=approach)
+    return with_distance(patch, h)
 
 
 def _over(rail: Outline, y: Array, frame: Frame, place: tuple[float, float, float]) -> Array:
@@ -152,7 +156,7 @@ def _over(rail: Outline, y: Array, frame: Frame, place: tuple[float, float, floa
     return np.asarray(np.where(np.abs(miss) < 1e-9, axes[1] @ points + to[1], np.nan))
 
 
-def turned(roll: float, yaw: float) -> Array:
+def to_track(roll: float, yaw: float) -> Array:
     """Return the matrix from wheelset to track axes: roll about x, then yaw about z."""
     cr, sr, cy, sy = math.cos(roll), math.sin(roll), math.cos(yaw), math.sin(yaw)
     about_x = np.array([[1.0, 0.0, 0.0], [0.0, cr, -sr], [0.0, sr, cr]])
@@ -223,7 +227,7 @@ class _Mesh(NamedTuple):
         `steps` are those around the wheel and along its profile [m].
         """
         mirror = 1.0 if pair.side == "right" else -1.0
-        turn = turned(mirror * pose.roll, mirror * pose.yaw)
+        turn = to_track(mirror * pose.roll, mirror * pose.yaw)
         middle = np.array([0.0, mirror * pose.y, pair.z - pair.nominal_radius])
         origin = middle + turn @ np.array([0.0, pair.tape, pair.nominal_radius])
         here = turn.T @ (frame.origin - origin)  # the reference point, as the wheel's profile has it

@@ -11,7 +11,6 @@ from typing import Any
 import numpy as np
 
 from contact.errors import ContactError, require_number
-from contact.friction import Friction
 from contact.geometry.flexible import WheelOffset
 from contact.geometry.records import Pose, Velocity
 from contact.geometry.shape import Profile
@@ -23,7 +22,8 @@ from contact.halfspace.parts import norm_of_parts
 from contact.inp import approximate, bodies, fast, lobes, pressed, single
 from contact.inp.case import Case
 from contact.inp.grid import material
-from contact.inp.mesh import Outlines, cornered, flattened, flattened_rows, turned
+from contact.inp.laws import of_strips
+from contact.inp.mesh import Outlines, cornered, flattened, flattened_rows, to_track
 from contact.inp.reasons import refuse, require_digits
 from contact.inp.results import PatchResult, Result
 from contact.inputs.creepage import Creepage
@@ -40,11 +40,10 @@ from contact.pair.transient import TransientPair
 from contact.pair.wheel_rail import WheelRailPair
 from contact.results import Status
 
-#: Largest roll [rad]; the search misses contacts at larger yaw than is allowed elsewhere.
+#: Largest roll [rad], more than a wheelset has. The limit of yaw stays: beyond it the search misses contacts.
 _LARGEST_ROLL = 0.3
 #: Search of a height: tolerance over the force, relative error above which the status tells of it, bracket [m], most steps.
 _TOLERANCE, _MISSED, _SHORTEST, _MOST = 3e-5, 1e-3, 1e-10, 40
-_LAWS = {2: ("linear", "FLIN"), 3: ("rational", "FRAT"), 4: ("exponential", "FEXP")}
 
 
 class _Pose(Pose):
@@ -61,7 +60,7 @@ def require_supported(case: Case, by_strips: bool) -> None:
     digits = case.digits
     for reason, wrong, what in (
         ("strips", by_strips and digits["T"] in (1, 2), f"T = {digits['T']}"),
-        ("strips", by_strips and digits["C1"] in (4, 5), f"C = {digits['C1']}"),
+        ("strips", by_strips and bodies.is_roller(case), f"C = {digits['C1']}"),
         ("strips", by_strips and case["LAW"] == 6, "L = 6"),
         ("strips", by_strips and case["CURV"] != 0.0, "CURV"),
         ("layer on strips", digits["M"] == 4 and by_strips, "M = 4"),
@@ -89,7 +88,7 @@ class _FilePair(TransientPair):
 
     case: Case
     outlines: Outlines | None = None  # of a wheel of revolution
-    roller: Profile | None = None  # its profile
+    roller: Profile | None = None  # profile of the roller
 
     def take(self, case: Case) -> None:
         """Take what is given besides the motion."""
@@ -200,7 +199,7 @@ class _FilePair(TransientPair):
         return flattened_rows(rows, patch, self.pair, self._pose, self.outlines, self.case["DS"])
 
     def _pull(self, found: PairSolution) -> float:
-        return float(turned(self.case["ROLL"], self.case["YAW"])[:, 0] @ np.asarray(found.force))
+        return float(to_track(self.case["ROLL"], self.case["YAW"])[:, 0] @ np.asarray(found.force))
 
 
 def _at_patch(case: Case, angle: float, side: str) -> Case:
@@ -225,18 +224,6 @@ _CONSTANTS = (
 )
 
 
-def _friction(case: Case) -> Friction:
-    """Return the friction of strips."""
-    case = _at_patch(case, 0.0, "right")
-    kind = case["LAW"]
-    if kind == 0:
-        return Friction(case["FSTAT"])
-    name, prefix = _LAWS[kind]
-    if case[f"{prefix}2"] != 0.0 or case["MEMDST"] > 0.0:
-        raise refuse(case, "law on strips", f"L = {kind}")
-    return Friction(case["FKIN"] + case[f"{prefix}1"], case["FKIN"], case["SABSH1"], name, velocity="local")
-
-
 class PairRunner:
     """Runs cases of a wheel on a rail in order, with what they leave behind."""
 
@@ -250,7 +237,7 @@ class PairRunner:
         """Return the result of a case."""
         require_supported(case, self._fast)
         pair, digits = self._prepared(case), case.digits
-        roller = digits["C1"] in (4, 5)
+        roller = bodies.is_roller(case)
         forward = case["RPITCH"] * case["NOMRADR"] if roller else case["VS"]
         spin = None if digits["F"] == 1 else case["VPITCH"]
         velocity = Velocity(forward, case["VY"], case["VZ"], case["VROLL"], case["VYAW"], spin)
@@ -272,13 +259,11 @@ class PairRunner:
         if isinstance(pair, _FilePair):
             found = self._stepped(case, pair, pose, velocity, given)
         else:
-            given["friction"] = _friction(case) if digits["T"] else 0.0
+            given["friction"] = of_strips(_at_patch(case, 0.0, "right")) if digits["T"] else 0.0
             found = pair.solve(pose, velocity, force=-case["FX_WS"] if digits["F"] == 1 else None, **given)
-        result = _result(case, found, velocity)
+        result = _result(case, found)
         if self._fast and bodies.has_slices(case) and result.status in ("ok", "saturated"):
-            return replace(
-                result, status="doubtful gap"
-            )  # the edge of a flat is no parabola, and gap_error misses some
+            return replace(result, status="doubtful gap")  # flats end in edges, and gap_error misses some
         return result
 
     def _stepped(
@@ -322,11 +307,8 @@ class PairRunner:
         return self._pair
 
 
-_OFFSET = tuple(
-    f"{first}{name}"
-    for first, names in (("D", "X Y Z"), ("V", "X Y Z"))
-    for name in (f"{axis}WHL" for axis in names.split())
-) + tuple(f"{first}{name}W" for first in "DV" for name in ("ROLL", "PITCH", "YAW"))
+#: Displacements and velocities of a flexible wheel.
+_OFFSET = tuple(f"{first}{name}" for first in "DV" for name in ("XWHL", "YWHL", "ZWHL", "ROLLW", "PITCHW", "YAWW"))
 
 
 def _offset(case: Case) -> WheelOffset:
@@ -334,7 +316,7 @@ def _offset(case: Case) -> WheelOffset:
 
     CONTACT gives it in the axes of the wheelset, at the lowest point of the wheel, about which it turns.
     """
-    turn, own = turned(case["ROLL"], case["YAW"]), turned(case["DROLLW"], case["DYAWW"])
+    turn, own = to_track(case["ROLL"], case["YAW"]), to_track(case["DROLLW"], case["DYAWW"])
     place, rate = (np.array([case[f"{first}{axis}WHL"] for axis in "XYZ"]) for first in "DV")
     angles, turning = ([case[f"{first}{name}W"] for name in ("ROLL", "PITCH", "YAW")] for first in "DV")
     up = np.array([0.0, 0.0, -case["NOMRADW"]])  # from the lowest point to the datum
@@ -343,21 +325,20 @@ def _offset(case: Case) -> WheelOffset:
     return WheelOffset(*map(float, place), *angles, *map(float, rate), *turning)
 
 
-def _result(case: Case, found: PairSolution, velocity: Velocity) -> Result:
+def _result(case: Case, found: PairSolution) -> Result:
     """Return the result in CONTACT's signs."""
     force = -np.asarray(found.force)  # on the rail
     roll, yaw = case["ROLL"], case["YAW"]
-    in_wheelset = turned(roll, yaw).T @ force
+    in_wheelset = to_track(roll, yaw).T @ force
     values = dict(zip(("FX(TR)", "FY(TR)", "FZ(TR)"), map(float, force), strict=True))
     values |= dict(zip(("FX(WS)", "FY(WS)", "FZ(WS)"), map(float, in_wheelset), strict=True))
     values["Z_WS"] = found.z
-    mirror = 1.0 if case.digits["C1"] in (1, 5) else -1.0
-    patches = tuple(_patch(case, each, velocity, mirror) for each in found.contacts if each.N > 0.0)
+    patches = tuple(_patch(case, each) for each in found.contacts if each.N > 0.0)
     return Result(case, patches, values, fast.in_words(found.status, found.gap_error))
 
 
-def _patch(case: Case, c: Contact, velocity: Velocity, mirror: float) -> PatchResult:
-    solution = c.solution
+def _patch(case: Case, c: Contact) -> PatchResult:
+    solution, mirror = c.solution, bodies.mirror_of(case)
     values = {
         "FN": c.N,
         "FX": -c.Fx,
@@ -368,7 +349,7 @@ def _patch(case: Case, c: Contact, velocity: Velocity, mirror: float) -> PatchRe
         "DELTCP(TR)": c.angle,
         "YCP(W)": mirror * c.on_wheel[0],
     }
-    cant = -bodies.turned(case)  # the file's profile is upright
+    cant = -bodies.turn_of_rail(case)  # the file's profile is upright
     y, z = (float(at) for at in c.on_rail)
     values["YCP(R)"] = mirror * (math.cos(cant) * y - math.sin(cant) * z)
     values["ZCP(R)"] = math.sin(cant) * y + math.cos(cant) * z

@@ -20,6 +20,7 @@ from contact.inputs.material import Material
 from contact.results import Status
 from contact.theory.hertz import hertz
 
+#: Values of M that are simplified theory on the grid.
 SIMPLIFIED = (2, 3, 5)
 
 

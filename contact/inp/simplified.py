@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 
 from contact.arrays import Array
 from contact.inp.case import Case
+from contact.inp.laws import LAWS
 from contact.inp.reasons import refuse
 from contact.inputs.material import Material
 from contact.theory.kalker import piecewise
@@ -128,23 +129,24 @@ def _static(case: Case) -> float:
     kind = case["LAW"]
     if kind == 0:
         return float(case["FSTAT"])
-    name = {2: "FLIN", 3: "FRAT", 4: "FEXP"}.get(kind)
-    if name is None:
+    if kind not in LAWS:
         raise refuse(case, "simplified theory", f"L = {kind} with M = {case.digits['M']}")
-    return float(case["FKIN"] + case[f"{name}1"] + case[f"{name}2"])
+    prefix = LAWS[kind][1]
+    return float(case["FKIN"] + case[f"{prefix}1"] + case[f"{prefix}2"])
 
 
 def _friction(case: Case, motion: Motion) -> float:
     """Return the coefficient of friction: with a law, that at the creepage of the whole."""
-    if case["ROWS"] not in (0,):
+    if case["ROWS"] != 0:
         raise refuse(case, "simplified theory", f"V = {case['ROWS']} with M = {case.digits['M']}")
     kind, slip = case["LAW"], motion.speed * math.hypot(motion.xi, motion.eta)
     if kind == 0 or slip == 0.0:
         return _static(case)
     _static(case)  # refuses other laws
+    prefix = LAWS[kind][1]
 
-    def term(name: str, k: int) -> float:
-        size = case[f"{name}{k}"]
+    def term(k: int) -> float:
+        size = case[f"{prefix}{k}"]
         if size == 0.0:
             return 0.0
         s = slip / case[f"SABSH{k}"]
@@ -154,8 +156,7 @@ def _friction(case: Case, motion: Motion) -> float:
             return float(size / (1.0 + s**k))
         return float(size * 2.0**-s)
 
-    name = {2: "FLIN", 3: "FRAT", 4: "FEXP"}[kind]
-    return float(case["FKIN"]) + term(name, 1) + term(name, 2)
+    return float(case["FKIN"]) + term(1) + term(2)
 
 
 def _stripped(found: Traction, ground: Ground, motion: Motion, bodies: Material) -> Traction:

@@ -17,6 +17,7 @@ from contact.halfspace.third_body import ThirdBody
 from contact.inp import pressed
 from contact.inp.case import Case
 from contact.inp.grid import Bed, bed, direction, material
+from contact.inp.laws import LAWS
 from contact.inp.reasons import refuse, require_digits
 from contact.inp.results import PatchResult, Result
 from contact.inputs.creepage import Creepage
@@ -82,7 +83,7 @@ def law(case: Case, rows: int, backwards: bool) -> LocalLaw:
         mean = 0.5 * (case["BKTEMP1"] + case["BKTEMP2"])
         warmth = Warmth(case["DFHEAT"], case["TREF"], case["DTHEAT"], mean, constants)
         return LocalLaw(case["FREF"], (), case["MEMDST"], case["MEM_S0"], warmth)
-    prefix = {2: "FLIN", 3: "FRAT", 4: "FEXP"}[kind]
+    prefix = LAWS[kind][1]
     names = {2: ("linear", "linear"), 3: ("rational", "rational_square"), 4: ("exponential", "exponential")}[kind]
     terms = tuple(
         (name, column(f"{prefix}{k}"), column(f"SABSH{k}"))

@@ -1,5 +1,6 @@
 """A massless rail on springs under a wheel. `contact.kernels.elastic_rail` finds its deflection, `balanced` that under
-a pair that Python solves (other_wheels.md)."""
+a pair that Python solves (other_wheels.md).
+"""
 
 from __future__ import annotations
 

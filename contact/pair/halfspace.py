@@ -1,7 +1,8 @@
 """`HalfspacePair`: one wheel on one rail that change along the way, by the element-wise half space.
 
 It is the reference for `contact.pair.WheelRailPair`, which solves the same surfaces on strips, as the FMU
-`WheelRailSurfaces` does."""
+`WheelRailSurfaces` does.
+"""
 
 from __future__ import annotations
 
@@ -38,7 +39,15 @@ _IDEAL, _STRAIGHT = Irregularity(), WheelOffset()
 
 
 class Instant(NamedTuple):
-    """What is given at one instant."""
+    """What is given at one instant.
+
+    Attributes
+    ----------
+    pose, velocity : of the wheelset
+    station, rotation : of the wheelset along the rail [m], of the wheel about its axle [rad]
+    irregularity, offset : of the rail, and of the wheel against its wheelset
+    friction : coefficient [-] or law
+    """
 
     pose: Pose
     velocity: Velocity
@@ -47,6 +56,22 @@ class Instant(NamedTuple):
     irregularity: Irregularity
     offset: WheelOffset
     friction: Any
+
+    @classmethod
+    def of(
+        cls,
+        pose: Pose,
+        velocity: Velocity | None,
+        station: float,
+        rotation: float,
+        irregularity: Irregularity | None,
+        offset: WheelOffset | None,
+        friction: Any,
+    ) -> Instant:
+        """Return the instant, with what is missing at rest and in place."""
+        return cls(
+            pose, velocity or Velocity(), station, rotation, irregularity or _IDEAL, offset or _STRAIGHT, friction
+        )
 
 
 class HalfspacePair(AnyPair):
@@ -121,9 +146,7 @@ class HalfspacePair(AnyPair):
             For input outside its range, if the wheel does not lie above the rail, or if no z gives the force. Where the
             force jumps over a `load`, the status is NOT_CONVERGED instead.
         """
-        at = Instant(
-            pose, velocity or Velocity(), station, rotation, irregularity or _IDEAL, offset or _STRAIGHT, friction
-        )
+        at = Instant.of(pose, velocity, station, rotation, irregularity, offset, friction)
         return self._given(at, load, penetration, vertical, force, torque, rail)
 
     def _given(

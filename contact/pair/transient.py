@@ -29,7 +29,7 @@ from contact.instance.ownership import one_thread
 from contact.pair import backwards
 from contact.pair.curved import Elements, elements
 from contact.pair.elastic_rail import ElasticRail
-from contact.pair.halfspace import _IDEAL, _STRAIGHT, HalfspacePair, Instant
+from contact.pair.halfspace import HalfspacePair, Instant
 from contact.pair.solution import PairSolution, Solved
 
 #: Most turns between pressure and traction of unlike bodies.
@@ -167,7 +167,7 @@ class TransientPair(HalfspacePair):
         PairSolution
             Creepages are shifts [m], [rad], `power_per_metre` is the work of friction [J].
         """
-        at = Instant(pose, moved, station, rotation, irregularity or _IDEAL, offset or _STRAIGHT, friction)
+        at = Instant.of(pose, moved, station, rotation, irregularity, offset, friction)
         return self._stepped(_Step(0.0), at, load, penetration, vertical, None, None, rail)
 
     @one_thread
@@ -195,9 +195,7 @@ class TransientPair(HalfspacePair):
         `sliding` is as for `contact.Transient.roll`, the other parameters as for `HalfspacePair.solve`.
         """
         step = _Step(require_number("distance", distance, 0.0, open_minimum=True), sliding)
-        at = Instant(
-            pose, velocity or Velocity(), station, rotation, irregularity or _IDEAL, offset or _STRAIGHT, friction
-        )
+        at = Instant.of(pose, velocity, station, rotation, irregularity, offset, friction)
         return self._stepped(step, at, load, penetration, vertical, force, torque, rail)
 
     def roll_on(self, pose: Pose, velocity: Velocity | None = None, **given: Any) -> PairSolution:
