@@ -63,6 +63,7 @@ def solve(case: Case, ground: Bed, bodies: Material, backwards: bool) -> Result:
     motion = simplified.Motion(
         case["CKSI"] + spin * case["SPINYO"], case["CETA"] - spin * case["SPINXO"], spin, case["VELOC"]
     )
+    Creepage(motion.xi, motion.eta, motion.phi)  # refuses what is out of range
     axes = None if ground.curvatures is None else ground.curvatures[2:]
     made = simplified.Ground(ground.x, ground.y, ground.dx, ground.dy, p, axes)
     q, slip, slips, _ = simplified.traction(case, made, motion, bodies, backwards)

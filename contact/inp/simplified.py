@@ -73,6 +73,10 @@ def traction(case: Case, ground: Ground, motion: Motion, bodies: Material, backw
     """Return the traction of steady rolling by the theory of the case."""
     theory = case.digits["M"]
     friction = _friction(case, motion)
+    if not friction > 0.0:
+        raise refuse(
+            case, "input", f"a coefficient of friction of {friction:g} at these creepages; allowed: more than 0"
+        )
     L = flexibilities(case, ground, motion, bodies)
     k = _slope(case, ground, motion, bodies, friction)
     x, y, dx, p, phi = ground.x, ground.y, ground.dx, ground.p, motion.phi
@@ -86,7 +90,7 @@ def traction(case: Case, ground: Ground, motion: Motion, bodies: Material, backw
         free, bound = last - dx * w / soft, friction * p[:, j]
         size = np.hypot(*free)
         slips[:, j] = (size > bound) & (bound > 0.0)
-        now = free * np.where(size > bound, bound / np.maximum(size, 1e-300), 1.0)
+        now = free * np.where(size > bound, bound / np.where(size > bound, size, 1.0), 1.0)
         slip[:, :, j] = np.where(bound > 0.0, w + soft * (now - last) / dx, 0.0)
         q[:, :, j] = last = now
     found = Traction(q, slip, slips, friction)
@@ -149,6 +153,8 @@ def _friction(case: Case, motion: Motion) -> float:
         size = case[f"{prefix}{k}"]
         if size == 0.0:
             return 0.0
+        if not case[f"SABSH{k}"] > 0.0:
+            raise refuse(case, "input", f"SABSH{k} = 0 with a coefficient that is not 0")
         s = slip / case[f"SABSH{k}"]
         if kind == 2:
             return float(size * max(0.0, 1.0 - 0.5 * s))
@@ -182,5 +188,6 @@ def _stripped(found: Traction, ground: Ground, motion: Motion, bodies: Material)
     whole = np.sqrt(np.maximum(half[:, None] ** 2 - x**2, 0.0))
     inner = np.sqrt(np.maximum((half - slid)[:, None] ** 2 - (x - slid[:, None]) ** 2, 0.0))
     strip = mu * top / a * np.stack((kappa * (whole - inner), lam * whole - (lam - phi) * inner))
-    full = found.q * (mu * ground.p / np.maximum(np.hypot(*found.q), 1e-300))
+    size = np.hypot(*found.q)
+    full = found.q * (mu * ground.p / np.where(size > 0.0, size, 1.0))
     return found._replace(q=np.where(sticks, strip, full), slips=inside & ~sticks)

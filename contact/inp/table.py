@@ -99,11 +99,11 @@ _MATERIAL = (
     Group((d("FLXZ", 1e-9, 0.0, above=True),), lambda n: _new_numbers(n) and n["B"] == 1),
     Group((d("FG1"), d("FG2"), d("TC1", low=0.0), d("TC2", low=0.0)), lambda n: _new_numbers(n) and n["M"] == 1),
     Group(
-        (d("FLX", 1e-9, 0.0, above=True), d("K0_MF", low=0.0), d("ALFAMF", low=0.0), d("BETAMF", low=0.0)),
+        (d("FLX", 1e-9, 0.0, above=True), d("K0_MF", low=0.0, above=True), d("ALFAMF", low=0.0), d("BETAMF", low=0.0)),
         lambda n: _new_numbers(n) and n["M"] == 2,
     ),
     Group(
-        (d("K0_MF", low=0.0), d("ALFAMF", low=0.0), d("BETAMF", low=0.0)),
+        (d("K0_MF", low=0.0, above=True), d("ALFAMF", low=0.0), d("BETAMF", low=0.0)),
         lambda n: _new_numbers(n) and n["M"] in (3, 5),
     ),
     Group(

@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 from contact import inp
+from contact.errors import ContactError
 from contact.geometry.records import Pose
 from contact.geometry.shape import Profile
 from contact.geometry.surfaces import SurfacePair
@@ -57,6 +58,40 @@ def test_simplified_theory_is_contacts(tmp_path, B, M, force, moment, stuck):
 def test_a_reduced_slope_lowers_the_force_and_leaves_full_slip(tmp_path):
     whole, reduced = spin(tmp_path, 2, 3)["FY"], spin(tmp_path, 2, 3, "0.500 1.000")["FY"]
     assert abs(reduced) < 0.9 * abs(whole)
+
+
+@pytest.mark.parametrize("M", [3, 5])
+@pytest.mark.parametrize(
+    ("old", "new"),
+    [
+        ("0.000     -0.000625 ", "1e200 -0.000625 "),
+        ("0.300      0.300", "0.000 0.300 0.000 0.000 0.000\n 0. 0."),
+        ("0.300      0.300", "0.000 0.300 1e-9 0.000 0.000\n 0. 0."),
+    ],
+    ids=["creepage", "no half slip", "no friction left"],
+)
+def test_simplified_theory_refuses_numbers_that_have_no_answer(tmp_path, M, old, new):
+    """Before: NaN at status ok, or a ZeroDivisionError."""
+    text = SPIN.replace("0223{M}0", f"022{M}20").format(B=2, K="1.000 1.000").replace(old, new)
+    path = tmp_path / "case.inp"
+    path.write_text(text.replace("  022", "  222") if old.startswith("0.3") else text)
+    assert inp.solve(inp.read(path))[0].refused == "input"
+
+
+def test_a_slope_of_zero_is_refused_by_name(tmp_path):
+    with pytest.raises(ContactError, match="K0_MF = 0"):
+        spin(tmp_path, 2, 3, "0.000 1.000")
+
+
+@pytest.mark.filterwarnings("error")
+@pytest.mark.parametrize("M", [3, 5])
+def test_simplified_theory_without_creepage_has_no_force(tmp_path, M):
+    text = SPIN.replace("0223{M}0", f"022{M}20").format(B=2, K="1.000 1.000")
+    path = tmp_path / "case.inp"
+    path.write_text(text.replace("0.000     -0.000625   0.000625", "0.000 0.000 0.000"))
+    values = inp.solve(inp.read(path))[0].patches[0].values
+    assert values["FX"] == values["FY"] == values["MZ"] == 0.0
+    assert values["NSLIP"] == 0.0
 
 
 def test_kalkers_table_is_read_as_contact_reads_it():
