@@ -21,6 +21,7 @@ from contact.theory.hertz import hertz
 
 #: Least curvature [1/m], and share of the depth within which Kik and Piotrowski take the contact.
 _FLAT, _SHARE = 0.1, 0.5
+_OPEN = "B = 5 needs a gap that opens to both sides; within the grid this one does not"
 
 
 def pressure(method: int, gap: Gap, approach: float, material: Material) -> Array:
@@ -77,6 +78,8 @@ def _equivalent_ellipse(
     row, column = divmod(int(h.argmin()), h.shape[1])
     level = -(1.0 - _SHARE) * depth
     ny, nx = h.shape
+    if not 0 < column < nx - 1:
+        raise ContactError(_OPEN)
     n = 1
     while column - n > 0 and column + n < nx - 1 and max(h[row, column - n], h[row, column + n]) <= level:
         n += 1
@@ -87,8 +90,13 @@ def _equivalent_ellipse(
     ends = []
     for i, way in ((first, -1), (last, 1)):
         j = int(h[i].argmin())
-        ends.append(gap.y[i] + way * gap.dy * (level - h[i, j]) / (h[i + way, j] - h[i, j]))
+        rise = float(h[i + way, j] - h[i, j])
+        if not rise > 0.0:
+            raise ContactError(_OPEN)
+        ends.append(gap.y[i] + way * gap.dy * (level - h[i, j]) / rise)
     middle = float(0.5 * (ends[0] + ends[1]))
+    if not ends[1] > middle:
+        raise ContactError("B = 5 needs a patch that lies within the grid; this one reaches no further than its border")
     B = max(_FLAT, (level + depth) / float(ends[1] - middle) ** 2)
     found = hertz(max(A, _FLAT), B, approach=depth, material=material)
     a, b = found.a, found.b

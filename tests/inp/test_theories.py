@@ -117,6 +117,16 @@ def test_approximate_pressures_are_hertz_pressure_on_an_ellipse(method, B):
     assert (p > 0.0).sum() * gap.dx * gap.dy == pytest.approx(math.pi * found.a * found.b, rel=0.02)
 
 
+@pytest.mark.filterwarnings("error")
+@pytest.mark.parametrize("slope", [0.0, 1e-3], ids=["cylinder", "ramp"])
+def test_kpec_refuses_a_patch_without_an_ellipse(slope):
+    """A cylinder along y, and a ramp whose patch is the border row (before: inf and a ZeroDivisionError)."""
+    x = y = np.linspace(-4e-3, 4e-3, 17)
+    h = slope * (y[:, None] - y[0]) + (0.0 if slope else 1.0) * x**2
+    with pytest.raises(ContactError, match="B = 5"):
+        approximate.pressure(5, Gap(x, y, h), 1e-6, STEEL)
+
+
 def two(distance):
     """Return the gap of two equal lobes whose overlaps at an approach of 30 µm are about `distance` apart [m]."""
     x, y = np.arange(-40, 41) * 2e-4, np.arange(-60, 61) * 2e-4
