@@ -35,7 +35,7 @@ _LIKELY = 0.7
 #: Relative change of the elements' stiffness at which its iteration stops. The relative error of the sum is its square.
 _STIFFNESS_TOLERANCE = 3e-2
 #: All rows.
-_ALL = slice(None)
+ALL = slice(None)
 #: Divisor for a first direction, whose quotient is not used.
 _TINY = 1e-300
 #: Rows and columns that are added on each side of the contact found on the coarser grid.
@@ -63,7 +63,7 @@ class Normal:
 
 
 @dataclass(frozen=True, slots=True)
-class _Ground:
+class Ground:
     """The half space under elements dx × dy [m], bent by the angles `tilt` of the rows if these are given."""
 
     dx: float
@@ -77,11 +77,11 @@ class _Ground:
         return self.dx * self.dy
 
     @property
-    def coarser(self) -> _Ground:
+    def coarser(self) -> Ground:
         """The plane half space under elements of twice the size."""
-        return _Ground(2.0 * self.dx, 2.0 * self.dy, self.material)
+        return Ground(2.0 * self.dx, 2.0 * self.dy, self.material)
 
-    def under(self, shape: tuple[int, ...], rows: slice = _ALL) -> Influence:
+    def under(self, shape: tuple[int, ...], rows: slice = ALL) -> Influence:
         """Return the influence numbers of a grid of `shape`, whose rows are these."""
         if self.tilt is None:
             return Influence(shape, self.dx, self.dy, self.material)
@@ -123,7 +123,7 @@ def norm(
     -------
     Normal
     """
-    ground = _Ground(dx, dy, material, tilt)
+    ground = Ground(dx, dy, material, tilt)
     scale = 1.0 / ground.element
     if tilt is not None and start is None:
         start = norm(gap, dx, dy, material, load=load, approach=approach, tolerance=1e-2).p
@@ -135,12 +135,12 @@ def norm(
     if approach <= gap.min():
         return Normal(np.zeros(gap.shape), approach, 0.0, 0, True)
     if start is None:
-        start = _from_coarser(gap, ground, approach)
-    p, iterations, converged = _in_window(gap - approach, ground, start, tolerance)
-    return Normal(p, approach, _stiffness(p, ground).sum() / scale, iterations, converged)
+        start = from_coarser(gap, ground, approach)
+    p, iterations, converged = in_window(gap - approach, ground, start, tolerance)
+    return Normal(p, approach, stiffness(p, ground).sum() / scale, iterations, converged)
 
 
-def _at_load(gap: Array, ground: _Ground, total: float, tolerance: float, start: Array | None) -> Normal:
+def _at_load(gap: Array, ground: Ground, total: float, tolerance: float, start: Array | None) -> Normal:
     """Find the approach at which the pressures sum to `total` [Pa], by Newton's iteration. N(approach) is convex."""
     least = float(gap.min())
     if start is not None and start.any():
@@ -154,9 +154,9 @@ def _at_load(gap: Array, ground: _Ground, total: float, tolerance: float, start:
         p, approach = np.zeros_like(gap), least + _rough_overlap(gap - least, ground, total)
     iterations, converged = 0, False
     for _ in range(MAX_STEPS):
-        p, n, solved = _in_window(gap - approach, ground, p, tolerance)
+        p, n, solved = in_window(gap - approach, ground, p, tolerance)
         iterations += n
-        rates = _stiffness(p, ground)
+        rates = stiffness(p, ground)
         if not rates.any():  # no contact is left: the approach was too small
             approach = least + 2.0 * (approach - least)
             continue
@@ -171,7 +171,7 @@ def _at_load(gap: Array, ground: _Ground, total: float, tolerance: float, start:
     return Normal(p, approach, float(rates.sum()) * ground.element, iterations, converged)
 
 
-def _rough_overlap(h: Array, ground: _Ground, total: float) -> float:
+def _rough_overlap(h: Array, ground: Ground, total: float) -> float:
     """Return an estimate of the overlap [m] under the load, as a start.
 
     It is the overlap at which independent springs carry the load. Their stiffness is that of a half space under the
@@ -199,7 +199,7 @@ def _doubled(p: Array, shape: tuple[int, ...]) -> Array:
     return p.repeat(2, axis=0).repeat(2, axis=1)[: shape[0], : shape[1]]
 
 
-def _from_coarser(gap: Array, ground: _Ground, approach: float) -> Array:
+def from_coarser(gap: Array, ground: Ground, approach: float) -> Array:
     """Return the pressure to start from [Pa], computed at half the resolution."""
     halved = _halved(gap) if min(gap.shape) >= 2 * _LEAST_SIDE else gap
     if halved is gap or approach <= halved.min():
@@ -207,8 +207,8 @@ def _from_coarser(gap: Array, ground: _Ground, approach: float) -> Array:
         level = least + _LIKELY * (approach - least)
         # Hertz' shape; its scale does not matter
         return np.sqrt(np.maximum(level - gap, 0.0)) * ground.material.contact_modulus
-    start = _from_coarser(halved, ground.coarser, approach)
-    p, _, _ = _in_window(halved - approach, ground.coarser, start, 1e-2)
+    start = from_coarser(halved, ground.coarser, approach)
+    p, _, _ = in_window(halved - approach, ground.coarser, start, 1e-2)
     return _doubled(p, gap.shape)
 
 
@@ -222,7 +222,7 @@ def _window(inside: NDArray[np.bool_]) -> tuple[slice, slice]:
     return slices[0], slices[1]
 
 
-def _in_window(h: Array, ground: _Ground, start: Array, tolerance: float) -> tuple[Array, int, bool]:
+def in_window(h: Array, ground: Ground, start: Array, tolerance: float) -> tuple[Array, int, bool]:
     """Solve for gap minus approach `h` on a window around the contact of `start`.
 
     The window is extended as long as elements outside it overlap. Return the pressure, the iterations and whether the
@@ -346,15 +346,15 @@ def response(p: Array, lowered: Array, dx: float, dy: float, material: Material)
         Size of an element [m].
     material : Material
     """
-    return _respond(p, lowered, _Ground(dx, dy, material), 1e-9)
+    return _respond(p, lowered, Ground(dx, dy, material), 1e-9)
 
 
-def _stiffness(p: Array, ground: _Ground) -> Array:
+def stiffness(p: Array, ground: Ground) -> Array:
     """Return dp/d(approach) [Pa/m], roughly."""
     return _respond(p, np.ones_like(p), ground, _STIFFNESS_TOLERANCE)
 
 
-def _respond(p: Array, lowered: Array, ground: _Ground, tolerance: float) -> Array:
+def _respond(p: Array, lowered: Array, ground: Ground, tolerance: float) -> Array:
     """Return r on the elements in contact, from C r = lowered there."""
     touching = p > 0.0
     rates = np.zeros_like(p)

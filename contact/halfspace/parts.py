@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from contact.arrays import Array
 from contact.halfspace.influence import Influence
-from contact.halfspace.norm import _ALL, Normal, _from_coarser, _Ground, _in_window, _stiffness
+from contact.halfspace.norm import ALL, Ground, Normal, from_coarser, in_window, stiffness
 from contact.inputs.material import Material
 
 
@@ -45,18 +45,18 @@ def norm_of_parts(
         return Normal(np.zeros(gap.shape), approach, 0.0, 0, True)
     ground = _Parted(dx, dy, material, parts=parts)
     if start is None:
-        start = _from_coarser(gap, _Ground(dx, dy, material), approach)
-    p, iterations, converged = _in_window(gap - approach, ground, start, tolerance)
-    return Normal(p, approach, float(_stiffness(p, ground).sum()) * ground.element, iterations, converged)
+        start = from_coarser(gap, Ground(dx, dy, material), approach)
+    p, iterations, converged = in_window(gap - approach, ground, start, tolerance)
+    return Normal(p, approach, float(stiffness(p, ground).sum()) * ground.element, iterations, converged)
 
 
 @dataclass(frozen=True, slots=True)
-class _Parted(_Ground):
+class _Parted(Ground):
     """The plane half space in parts."""
 
     parts: Parts | None = None
 
-    def under(self, shape: tuple[int, ...], rows: slice = _ALL) -> Influence:
+    def under(self, shape: tuple[int, ...], rows: slice = ALL) -> Influence:
         """Return the influence numbers of a grid of `shape`, whose rows are these."""
         assert self.parts is not None
         parts = self.parts._replace(of_row=self.parts.of_row[rows])
