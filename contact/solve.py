@@ -142,7 +142,7 @@ def solve(
     >>> gap = contact.Separation.hertzian(1.1, 0.8)
     >>> solution = contact.solve(gap, contact.Creepage(1e-3), load=80e3)
     >>> round(solution.Fx), round(solution.max_pressure / 1e6), solution.status
-    (-11849, 893, <Status.OK: 1>)
+    (-11851, 893, <Status.OK: 1>)
     """
     if not isinstance(separation, Separation | Gap):
         if isinstance(getattr(separation, "separation", None), Separation | Gap):

@@ -229,7 +229,7 @@ def _outputs() -> Iterable[Variable]:
     )
     yield from solver.status_and_totals()
     yield solver.gap_error(depends=_NORMAL_PROBLEM)
-    yield solver.bend(depends=_NORMAL_PROBLEM)
+    yield solver.bend(depends=(*_NORMAL_PROBLEM, "geometry.surface", "geometry.tilt"))
 
 
 def _fields() -> Iterable[Variable]:

@@ -55,7 +55,7 @@ ROLLING = {"pose.yaw": 4e-3, "velocity.x": 30.0, "velocity.spin": -30.0 / 0.46 *
 @pytest.mark.parametrize("law", range(len(WEAR_LAWS)))
 def test_accumulates_what_contact_accumulation_does(open_pair, law):
     """The FMU finds the height of the load within 1e-9 of it; the histogram's contacts are solved for their loads. Bins at the
-    edges of a patch magnify the difference."""
+    edges of a patch hold little and magnify the difference: they are compared by the largest bin."""
     fmu = open_pair()
     fmu.update({**ROLLING, "accumulation.wear_law": law + 2})
     rolled(fmu.initialize())
@@ -67,7 +67,7 @@ def test_accumulates_what_contact_accumulation_does(open_pair, law):
             theirs = np.where(inside, wanted[quantity][np.minimum(at, wanted.centres.size - 1)], 0.0)
             mine = bins(fmu, body, quantity)
             assert mine.sum() == pytest.approx(wanted[quantity].sum(), rel=1e-7), "nothing lies beyond the bins"
-            np.testing.assert_allclose(mine, theirs, rtol=1e-5, atol=1e-12 * np.abs(theirs).max(), err_msg=quantity)
+            np.testing.assert_allclose(mine, theirs, rtol=1e-5, atol=1e-7 * np.abs(theirs).max(), err_msg=quantity)
 
 
 def test_bins_add_up_to_the_totals_and_grow_linearly(open_pair):
