@@ -24,8 +24,8 @@ from contact.halfspace import Gap
 from contact.halfspace.lattice import CurvedGap
 from contact.pair.curved import Elements
 
-#: Steps of Newton's iterations, and a distance below which they are at rest [m].
-_STEPS, _REST = 20, 1e-13
+#: Steps of Newton's iterations, a distance below which they are at rest, and one above which they have missed [m].
+_STEPS, _REST, _MISSED = 20, 1e-13, 1e-9
 #: Points of a spline for each point of a profile.
 _FINE = 20
 
@@ -153,7 +153,7 @@ def _over(rail: Outline, y: Array, frame: Frame, place: tuple[float, float, floa
             break
         rate = axes[0] @ rates
         at = at + np.clip(miss / np.where(np.abs(rate) > 1e-3, rate, 1e-3), -2e-3, 2e-3)
-    return np.asarray(np.where(np.abs(miss) < 1e-9, axes[1] @ points + to[1], np.nan))
+    return np.asarray(np.where(np.abs(miss) < _MISSED, axes[1] @ points + to[1], np.nan))
 
 
 def to_track(roll: float, yaw: float) -> Array:
@@ -240,7 +240,7 @@ class _Mesh(NamedTuple):
     def distance(
         self, pair: SurfacePair, rail: Outline | None, frame: Frame, x: Array, y: Array, before: Array
     ) -> Array:
-        """Return the distance of the rail from the mesh along the normal of a frame [m], `before` beyond the outlines."""
+        """Return the distance of the rail from the mesh along the normal of a frame [m], `before` where they do not reach."""
         placed = _Placed(self.wheel, self.radius, frame, self.turn, self.origin)
         (s0, u0), (dx, step) = self.reference, self.steps
         s, u = placed.under(x, y, self.reference)
@@ -267,7 +267,10 @@ def _solved(first: Array, second: Array, right: Array) -> tuple[Array, Array]:
 
 
 def _bilinear(nodes: Array, x: Array, y: Array, i: Array, j: Array) -> Array:
-    """Return the heights at x, y between the nodes of a mesh. `i` and `j` are about the places there, counted in nodes."""
+    """Return the heights at x, y between the nodes of a mesh, NaN where they are not found.
+
+    `i` and `j` are about the places there, counted in nodes.
+    """
     last = nodes.shape[0] - 2, nodes.shape[1] - 2
     for _ in range(_STEPS):
         a, b = (np.clip(np.floor(k).astype(np.int64), 0, most) for k, most in zip((i, j), last, strict=True))
@@ -280,4 +283,4 @@ def _bilinear(nodes: Array, x: Array, y: Array, i: Array, j: Array) -> Array:
             break
         di, dj = _solved(np.moveaxis(by_i[..., :2], -1, 0), np.moveaxis(by_j[..., :2], -1, 0), miss)
         i, j = i + np.clip(di, -1.0, 1.0), j + np.clip(dj, -1.0, 1.0)
-    return np.asarray(here[..., 2])
+    return np.asarray(np.where(np.abs(miss).max(axis=0) < _MISSED, here[..., 2], np.nan))

@@ -7,7 +7,7 @@ from contact.geometry.records import Pose
 from contact.geometry.shape import Profile
 from contact.geometry.surfaces import SurfacePair
 from contact.halfspace.lattice import Lattice
-from contact.inp.mesh import Outline, Outlines, flattened
+from contact.inp.mesh import Outline, Outlines, _bilinear, flattened
 
 RADIUS, STEP = 0.05, 4e-4  # of the hollow wheel, and of the elements [m]
 
@@ -48,3 +48,12 @@ def test_with_yaw_the_flats_lie_off_the_wheel_by_the_square_of_the_step_over_eig
 def test_the_mesh_of_a_left_wheel_is_the_mirror_image():
     right, left = lowered(0.05), lowered(-0.05, side="left")
     assert left == pytest.approx(right[::-1], abs=1e-12)
+
+
+def test_a_place_that_no_piece_of_the_mesh_covers_has_no_height():
+    i, j = np.meshgrid(np.arange(-3.0, 4.0), np.arange(3.0), indexing="ij")
+    folded = np.stack((abs(i), j, np.full_like(i, 7.0)), axis=-1)  # x is at least 0
+    x, y = np.array([[1.5, -1.0]]), np.ones((1, 2))
+    found = _bilinear(folded, x, y, np.full((1, 2), 5.0), y)
+    assert found[0, 0] == pytest.approx(7.0)
+    assert np.isnan(found[0, 1])
