@@ -32,10 +32,10 @@ demo: $(READY_FOR_DEMO) ## build the FMUs, run the coupled wheelset, write pictu
 
 fmu: $(READY)    ## build the FMUs into dist/native and dist/python (three and a half minutes of processor time the first time, then seconds)
 	$(BIN)/python build_fmu.py --packaging all
-	$(BIN)/python -m fmu_src.lint dist/python/*.fmu dist/native/*.fmu dist/native/fmi3/*.fmu
+	$(BIN)/python -m contact_fmu.lint dist/python/*.fmu dist/native/*.fmu dist/native/fmi3/*.fmu
 
 test: $(READY)   ## run the tests
-	$(BIN)/python -c 'from fmu_src.native import systems; systems.folder()'
+	$(BIN)/python -c 'from contact_fmu.native import systems; systems.folder()'
 	$(BIN)/python -m pytest -n 2 --dist worksteal
 
 check: $(READY)  ## run the quick tests (a minute once the library is built)
@@ -43,7 +43,7 @@ check: $(READY)  ## run the quick tests (a minute once the library is built)
 
 coverage: $(READY) ## run the quick tests and print which lines of the package no test runs (kernels are compiled: not seen)
 	$(BIN)/python -c 'import contact.core.library as library; library.get_library()'
-	$(BIN)/python -m coverage run --source contact,fmu_src,models --omit '*/kernels/*' -m pytest -m "not slow"
+	$(BIN)/python -m coverage run --source contact,contact_fmu,contact_models --omit '*/kernels/*' -m pytest -m "not slow"
 	$(BIN)/python -m coverage report --skip-covered --show-missing
 
 soak: $(READY)   ## check memory over a million steps of every native FMU, wrong calls, damaged files, vehicles under Wine (minutes)
@@ -101,7 +101,7 @@ $(READY_FOR_DOCS): $(READY)
 	$(BIN)/python -m pip install --quiet --editable '.[docs]'
 	@touch $@
 
-EXPLORER := $(wildcard explorer/*.py explorer/*.c explorer/page/* fmu_src/tables/*.py fmu_src/native/*.py contact/compile/*.py) $(shell find contact/kernels -name '*.py')
+EXPLORER := $(wildcard explorer/*.py explorer/*.c explorer/page/* fmu_src/contact_fmu/tables/*.py fmu_src/contact_fmu/native/*.py contact/compile/*.py) $(shell find contact/kernels -name '*.py')
 dist/explorer.html: $(EXPLORER) | $(READY)
 	$(BIN)/python -m explorer --out $@
 

@@ -1,7 +1,12 @@
 """Build the FMUs: python build_fmu.py [--packaging python|native|all] [--out dist] [options]; --help lists them."""
 
+import sys
+from pathlib import Path
+
+# The packages of a clone that nobody has installed.
+sys.path[:0] = [str(Path(__file__).parent / folder) for folder in ("fmu_src", "models")]
 try:
-    from fmu_src.build import main
+    from contact_fmu.build import main
 except ModuleNotFoundError as error:
     raise SystemExit(f"{error}: install the build requirements with  pip install '.[fmu,native]'") from None
 

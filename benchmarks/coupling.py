@@ -13,8 +13,8 @@ from collections.abc import Iterable
 import numpy as np
 
 from benchmarks.tables import table, tell
-from models.wheelset import master
-from models.wheelset.parameters import WheelsetParameters
+from contact_models.wheelset import master
+from contact_models.wheelset.parameters import WheelsetParameters
 from reference.stability import EXPLICIT, LONGEST, coupled, measured, modes
 
 SPEEDS = (1.0, 2.0, 5.0, 10.0, 20.0, 40.0)
@@ -83,9 +83,9 @@ def report() -> str:
     )
     return f"""# Coupling
 
-The largest communication step in milliseconds at which the wheelset of `models/wheelset` (S1002 on 60E1) and
+The largest communication step in milliseconds at which the wheelset of `models/contact_models/wheelset` (S1002 on 60E1) and
 its two contacts are stable, by bisection on growth, and the energy that the coupling loses. Written by
-`make coupling`. The schemes are those of `models/wheelset/master.py`.
+`make coupling`. The schemes are those of `models/contact_models/wheelset/master.py`.
 
 ## Estimate
 

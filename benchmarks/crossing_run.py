@@ -18,13 +18,13 @@ from benchmarks.tables import read_options
 from contact.arrays import Array
 from contact.geometry import profile
 from contact.plot import time_histories
+from contact_models.vehicle.course import lay
+from contact_models.vehicle.declared import read
+from contact_models.vehicle.kernels.layout import Book
+from contact_models.vehicle.sections import RailSection
+from contact_models.vehicle.simulation import ContactOptions, Simulation
+from contact_models.vehicle.track import Track
 from examples.crossing import turnout
-from models.vehicle.course import lay
-from models.vehicle.declared import read
-from models.vehicle.kernels.layout import Book
-from models.vehicle.sections import RailSection
-from models.vehicle.simulation import ContactOptions, Simulation
-from models.vehicle.track import Track
 
 #: Distance of the first wheelset before the slices begin, and after they end [m].
 _BEFORE, _AFTER = 0.5, 1.5

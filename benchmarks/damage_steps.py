@@ -14,12 +14,12 @@ from dataclasses import replace
 from pathlib import Path
 
 from benchmarks.tables import table
-from models.runs import scenario
-from models.runs.run import VehicleRun
-from models.runs.scenario import Declaration, Methods, Profiles, Recording, Scenario
-from models.vehicle.declared import read
-from models.vehicle.spectra import Irregularities
-from models.vehicle.track import Curve, Track
+from contact_models.runs import scenario
+from contact_models.runs.run import VehicleRun
+from contact_models.runs.scenario import Declaration, Methods, Profiles, Recording, Scenario
+from contact_models.vehicle.declared import read
+from contact_models.vehicle.spectra import Irregularities
+from contact_models.vehicle.track import Curve, Track
 
 CURVE = Curve(start=30.0, radius=500.0, length=120.0, transition=40.0, cant=0.05)
 WHEELSET = Declaration(

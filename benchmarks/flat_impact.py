@@ -16,11 +16,11 @@ import numpy as np
 from benchmarks.tables import read_options
 from contact.geometry import profile
 from contact.geometry.surfaces import Flat, WheelSurface
-from models.vehicle.course import lay
-from models.vehicle.declared import read
-from models.vehicle.kernels.layout import Book
-from models.vehicle.simulation import ContactOptions, Simulation
-from models.vehicle.track import Track
+from contact_models.vehicle.course import lay
+from contact_models.vehicle.declared import read
+from contact_models.vehicle.kernels.layout import Book
+from contact_models.vehicle.simulation import ContactOptions, Simulation
+from contact_models.vehicle.track import Track
 
 #: Turns of the wheel before the flat comes, and those after which the run ends; the flat is at the bottom at .5.
 _BEFORE, _END = 0.4, 0.75

@@ -13,10 +13,10 @@ import numpy as np
 
 from benchmarks.tables import read_options
 from contact.geometry import profile
-from models.vehicle.course import lay
-from models.vehicle.declared import read
-from models.vehicle.simulation import Simulation
-from models.vehicle.track import Track
+from contact_models.vehicle.course import lay
+from contact_models.vehicle.declared import read
+from contact_models.vehicle.simulation import Simulation
+from contact_models.vehicle.track import Track
 
 #: Place of the joint, length of the rail that falls to it [m], and its slope.
 _AT, _LENGTH, _SLOPE = 6.0, 0.5, 10e-3

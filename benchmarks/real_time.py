@@ -21,11 +21,11 @@ import contact
 from benchmarks.tables import read_options, table
 from contact.arrays import Array
 from contact.geometry import profile
-from models.vehicle.course import lay
-from models.vehicle.declared import read
-from models.vehicle.simulation import ContactOptions, Simulation
-from models.vehicle.spectra import Irregularities
-from models.vehicle.track import Curve, Track
+from contact_models.vehicle.course import lay
+from contact_models.vehicle.declared import read
+from contact_models.vehicle.simulation import ContactOptions, Simulation
+from contact_models.vehicle.spectra import Irregularities
+from contact_models.vehicle.track import Curve, Track
 
 SOURCE = Path(__file__).parents[1] / "examples" / "c" / "real_time.c"
 SPEED, STEP, FRICTION = 20.0, 1e-3, 0.3

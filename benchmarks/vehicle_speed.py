@@ -20,13 +20,13 @@ from fmpy.fmi2 import FMU2Slave
 
 from benchmarks.tables import read_options, table
 from contact.geometry import profile
-from models.runs import scenario
-from models.vehicle.course import lay
-from models.vehicle.declared import read
-from models.vehicle.kernels.motion import move, prepare_contacts
-from models.vehicle.simulation import PACE, ContactOptions, Simulation
-from models.vehicle.spectra import Irregularities
-from models.vehicle.track import Curve, Track
+from contact_models.runs import scenario
+from contact_models.vehicle.course import lay
+from contact_models.vehicle.declared import read
+from contact_models.vehicle.kernels.motion import move, prepare_contacts
+from contact_models.vehicle.simulation import PACE, ContactOptions, Simulation
+from contact_models.vehicle.spectra import Irregularities
+from contact_models.vehicle.track import Curve, Track
 
 STEP, SHORT = 4.6e-4, 200  # [s], and steps of a piece that is timed
 SCENARIO = Path(__file__).parents[1] / "examples" / "scenarios" / "vehicle_300.toml"

@@ -11,11 +11,11 @@ from enum import Enum
 from typing import Any, Literal, Union, get_args, get_origin, get_type_hints
 
 from contact.friction import LAWS, VELOCITIES
-from models.explained import explained, is_type
-from models.life import declared_set
-from models.runs import scenario
-from models.vehicle import declared as vehicle
-from models.vehicle.spectra import SPECTRA
+from contact_models.explained import explained, is_type
+from contact_models.life import declared_set
+from contact_models.runs import scenario
+from contact_models.vehicle import declared as vehicle
+from contact_models.vehicle.spectra import SPECTRA
 
 #: Names of the code in docstrings → what they stand for.
 _LISTS = {"LAWS": LAWS, "VELOCITIES": VELOCITIES, "SPECTRA": SPECTRA}

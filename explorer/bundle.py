@@ -13,11 +13,11 @@ from contact.geometry import files, inspection, profile, repair
 from contact.geometry.profile import Profile
 from contact.geometry.wheelset import TAPE_FROM_FLANGE_BACK
 from contact.kernels.records import MAX_PATCHES
+from contact_fmu.native import components
+from contact_fmu.tables import wheel_rail_pair
+from contact_fmu.units import DISPLAY_UNITS
+from contact_fmu.variables import Causality, Table, Variable
 from explorer.patch import FIELDS, STRIPS
-from fmu_src.native import components
-from fmu_src.tables import wheel_rail_pair
-from fmu_src.units import DISPLAY_UNITS
-from fmu_src.variables import Causality, Table, Variable
 
 WHEELS = ("S1002", "1/40", "EPS", "EN 15302 B", "EN 15302 H")
 RAILS = ("60E1", "60E2", "56E1", "54E1", "50E1", "49E1")  # not inclined: `rail.inclination` turns them

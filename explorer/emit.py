@@ -1,7 +1,7 @@
 """Compile the kernels to WebAssembly: ``python -m explorer.emit FOLDER`` writes kernels.o and data.o.
 
-The module of all kernels is that of the libraries (`fmu_src.native.systems`). LLVM compiles what the page calls. The objects
-are kept beside those of the other systems.
+The module of all kernels is that of the libraries (`contact_fmu.native.systems`). LLVM compiles what the page calls. The
+objects are kept beside those of the other systems.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ from contact.compile import c_tables
 from contact.compile.emit import data_as_ir, refuse_the_rest
 from contact.compile.objects import only
 from contact.core import library
-from fmu_src.native import kinds, systems
+from contact_fmu.native import kinds, systems
 
 TRIPLE = "wasm32-unknown-unknown"
 FEATURES = "+simd128,+bulk-memory,+bulk-memory-opt,+nontrapping-fptoint,+sign-ext,+mutable-globals"

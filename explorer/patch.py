@@ -12,8 +12,8 @@ from contact.compile.library import Added
 from contact.kernels.block import ahead
 from contact.kernels.pair import solve_patch
 from contact.kernels.rows import DamageField, Field, Strip
-from fmu_src.native import kinds, wheel_rail_pair
-from fmu_src.tables.wheel_rail_pair import ACCUMULATED, table
+from contact_fmu.native import kinds, wheel_rail_pair
+from contact_fmu.tables.wheel_rail_pair import ACCUMULATED, table
 
 #: Rows of a patch that the page draws, one number a strip.
 STRIPS = (Strip.Y, Strip.DY, Strip.XC, Strip.A)

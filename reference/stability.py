@@ -15,11 +15,11 @@ from typing import NamedTuple
 import numpy as np
 
 from contact.errors import ContactError
-from models.wheelset import master
-from models.wheelset.components import DirectContact, DirectWheelset, direct
-from models.wheelset.model import WheelsetModel
-from models.wheelset.parameters import WheelsetParameters
-from models.wheelset.ports import CREEPAGE
+from contact_models.wheelset import master
+from contact_models.wheelset.components import DirectContact, DirectWheelset, direct
+from contact_models.wheelset.model import WheelsetModel
+from contact_models.wheelset.parameters import WheelsetParameters
+from contact_models.wheelset.ports import CREEPAGE
 
 EXPLICIT = {
     "jacobi": 1.0,

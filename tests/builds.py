@@ -29,8 +29,8 @@ def _native(path: Path) -> None:
 
 
 def _surfaces(path: Path) -> None:
-    from fmu_src.catalogue import surfaces
-    from fmu_src.native import packaging
+    from contact_fmu.catalogue import surfaces
+    from contact_fmu.native import packaging
 
     packaging.build(surfaces(), path)
 

@@ -190,7 +190,7 @@ OWN = (
     "contact/accumulation/histogram.py",  # of its own sums
     "contact/halfspace/bent.py",
     "contact/halfspace/step.py",
-    "models/wheelset/fmu.py",  # what an FMU has returned
+    "models/contact_models/wheelset/fmu.py",  # what an FMU has returned
 )
 
 

@@ -14,11 +14,11 @@ import contact
 from contact.cli import arguments, cases, options
 from contact.geometry import profile
 from contact.geometry.surfaces import RailSurface, WheelSurface
-from models.life import declared_set
-from models.runs import scenario
-from models.vehicle import declared as vehicle
-from models.vehicle import track
-from models.vehicle.measured import Measured
+from contact_models.life import declared_set
+from contact_models.runs import scenario
+from contact_models.vehicle import declared as vehicle
+from contact_models.vehicle import track
+from contact_models.vehicle.measured import Measured
 from tests import damaged
 
 ROOT = Path(__file__).parents[1]

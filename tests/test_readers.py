@@ -11,9 +11,9 @@ import contact
 from contact.accumulation import Histogram
 from contact.cli import cases
 from contact.geometry import profile
-from fmu_src import archive, profiles, resources
-from models import toml as declared
-from models.runs import checkpoint
+from contact_fmu import archive, profiles, resources
+from contact_models import toml as declared
+from contact_models.runs import checkpoint
 from tests import damaged
 
 

@@ -15,9 +15,9 @@ import check  # noqa: E402
 import generated  # noqa: E402
 
 from contact.friction import Friction  # noqa: E402
-from models.life import declared_set  # noqa: E402
-from models.runs import scenario  # noqa: E402
-from models.vehicle import track  # noqa: E402
+from contact_models.life import declared_set  # noqa: E402
+from contact_models.runs import scenario  # noqa: E402
+from contact_models.vehicle import track  # noqa: E402
 
 
 @pytest.fixture(scope="module")

@@ -12,8 +12,8 @@ from contact.cli import arguments, cases, options
 from contact.geometry import profile
 from contact.reading import text
 from contact.reading.columns import table
-from models import toml as declared
-from models.vehicle.measured import Measured
+from contact_models import toml as declared
+from contact_models.vehicle.measured import Measured
 from tests.geometry.written import COLUMNS
 
 ENCODINGS = ("utf-8", "utf-8-sig", "utf-16", "utf-16-be", "utf-32")

@@ -19,7 +19,7 @@ import numpy as np
 import pytest
 
 import contact
-import models
+import contact_models
 from contact import Creepage, Separation
 from contact.accumulation import Histogram, Section
 from contact.errors import ContactError
@@ -30,8 +30,8 @@ from contact.instance.ownership import OwnsArrays
 from contact.pair import HalfspacePair, RollerRig, TransientPair, WheelRailPair, over_poses, solved
 from contact.results import solution as solutions
 from contact.stress import Endurance
-from models.vehicle.coupling import OpenVehicle
-from models.wheelset.model import WheelsetModel
+from contact_models.vehicle.coupling import OpenVehicle
+from contact_models.wheelset.model import WheelsetModel
 from tests.vehicle.parts import simulation
 
 GAP = Separation.hertzian(1.1, 0.8)
@@ -367,7 +367,7 @@ def test_every_class_that_keeps_arrays_for_kernels_lets_one_thread_in():
     """Words of arrays that are packed once, and blocks of memory, belong to a class that takes turns."""
     kept = re.compile(r"= pack\(|workspace\.(allocate|bench|\w*search|sheet|aside)\(")
     found = set()
-    for package in (contact, models):
+    for package in (contact, contact_models):
         for module in pkgutil.walk_packages(package.__path__, package.__name__ + "."):
             if module.name.startswith(("contact.kernels", "contact.core", "contact.plot", "contact.cli")):
                 continue

@@ -1,7 +1,7 @@
 """Build backend of wheelrail-contact: setuptools, and the libraries of compiled kernels in a wheel.
 
-`build_wheel` copies the sources into a temporary folder, adds the libraries and calls setuptools. `setup.py` names the
-packages. Editable installs are made by setuptools alone.
+`build_wheel` copies the sources into a temporary folder, adds the libraries and calls setuptools. Editable installs are made
+by setuptools alone.
 
 A wheel is for one system and carries the library of compiled kernels for it. The libraries for the other systems are there
 too, because an FMU has them all. numba and zig build them, and are needed nowhere else. ``--config-setting system=win64``
@@ -41,7 +41,7 @@ __all__ = [
     "prepare_metadata_for_build_editable",
 ]
 
-#: System, by its name in `fmu_src.native.systems` → tag of its wheels.
+#: System, by its name in `contact_fmu.native.systems` → tag of its wheels.
 SYSTEMS = {
     "linux64": "manylinux_2_17_x86_64",
     "aarch64-linux": "manylinux_2_17_aarch64",
@@ -85,7 +85,7 @@ def _builders() -> list[str]:
 
 def libraries(root: Path) -> Path:
     """Return the folder of the libraries for all systems, kept with those of checkouts: the same sources build them once."""
-    code = f"from fmu_src.native.systems import folder; print(folder({tuple(SYSTEMS)}))"
+    code = f"from contact_fmu.native.systems import folder; print(folder({tuple(SYSTEMS)}))"
     told = subprocess.run([sys.executable, "-c", code], cwd=root, stdout=subprocess.PIPE, text=True, check=True)
     return Path(told.stdout.splitlines()[-1])
 
@@ -115,7 +115,7 @@ def compile_in_c(root: Path, library: Path) -> None:
     compiler = os.environ.get("CC") or next(filter(None, map(shutil.which, ("cc", "gcc", "clang"))), None)
     if compiler is None:
         raise RuntimeError("no C compiler: install one (apt-get install gcc), or install a wheel of wheelrail-contact")
-    native, given = root / "fmu_src" / "native", root / IN_C
+    native, given = root / "fmu_src" / "contact_fmu" / "native", root / IN_C
     folders = (root / "contact" / "c", native / "c_library", native / "c")
     parts = [path for folder in folders for path in sorted(folder.glob("*.c"))]
     (found,) = re.findall(r'__version__ = "(.*)"', (root / "contact" / "version.py").read_text(encoding="utf-8"))
@@ -138,7 +138,7 @@ def compile_in_c(root: Path, library: Path) -> None:
 
 def lay_out(root: Path, folder: Path) -> None:
     """Copy what a wheel is made of into `folder`."""
-    for name in ("README.md", "LICENSE", "pyproject.toml", "setup.py"):
+    for name in ("README.md", "LICENSE", "pyproject.toml"):
         shutil.copy2(root / name, folder / name)
     for name in ("contact", "fmu_src", "models"):
         shutil.copytree(root / name, folder / name, ignore=shutil.ignore_patterns("__pycache__", "*.pyc"))

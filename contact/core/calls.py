@@ -152,8 +152,8 @@ class Entry:
 
     @property
     def symbol(self) -> str:
-        """Name of the entry in the library. In a wheel the package `models` is named `contact_models`."""
-        return f"{self.function.__module__}.{self.function.__qualname__}".removeprefix("contact_").replace(".", "_")
+        """Name of the entry in the library."""
+        return f"{self.function.__module__}.{self.function.__qualname__}".replace(".", "_")
 
     @property
     def arguments(self) -> dict[str, Any]:

@@ -241,7 +241,7 @@ def _run_builder(folder: Path, *options: str) -> None:
     shows = sys.stderr is not None and sys.stderr.isatty()
     begin = time.monotonic()
     command = [sys.executable, "-m", "contact.compile.library", str(folder), *options]
-    path = os.pathsep.join(filter(None, (str(_ROOT), os.environ.get("PYTHONPATH"))))
+    path = os.pathsep.join(filter(None, (*map(str, roots()), os.environ.get("PYTHONPATH"))))
     own = os.environ | ENVIRONMENT | {"PYTHONPATH": path}
     with subprocess.Popen(
         command, cwd=_ROOT, env=own, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True
@@ -293,21 +293,26 @@ def sources() -> list[Path]:
 
 @cache
 def registered() -> dict[str, list[str]]:
-    """Return what pyproject.toml says of the library: packages with kernels, and modules that add functions for C.
+    """Return what pyproject.toml says of the library: folders of packages, packages with kernels, modules that add C functions.
 
     A package that is installed by a wheel has no such file. It builds nothing.
     """
     told = tomllib.loads(_PROJECT.read_text(encoding="utf-8")) if _PROJECT.is_file() else {}
-    return {"kernels": [], "added": [], **told.get("tool", {}).get("contact", {}).get("library", {})}
+    return {"roots": [], "kernels": [], "added": [], **told.get("tool", {}).get("contact", {}).get("library", {})}
+
+
+def roots() -> list[Path]:
+    """Return the folders of this checkout that hold packages."""
+    return [_ROOT / name for name in registered()["roots"]]
 
 
 def modules() -> list[tuple[Path, str]]:
     """Return path and name of the modules with kernels in all packages that pyproject.toml lists."""
-    packages = [_ROOT / name for name in registered()["kernels"]]
     return [
-        (path, ".".join(path.relative_to(package.parent).with_suffix("").parts))
-        for package in packages
-        for path in sorted(package.rglob("*.py"))
+        (path, ".".join(path.relative_to(root).with_suffix("").parts))
+        for root in roots()
+        for name in registered()["kernels"]
+        for path in sorted((root / name).rglob("*.py"))
         if _has_kernels(path)
     ]
 

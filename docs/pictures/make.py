@@ -11,8 +11,8 @@ from pathlib import Path
 from PIL import Image
 
 from contact import plot
-from models.runs import scenario
-from models.runs.run import VehicleRun
+from contact_models.runs import scenario
+from contact_models.runs.run import VehicleRun
 
 TARGET = Path(__file__).with_name("patch.png")
 EXPLORER = Path(__file__).with_name("explorer.png")

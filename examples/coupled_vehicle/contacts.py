@@ -10,12 +10,12 @@ from typing import Self
 
 import fmpy
 import numpy as np
-from contact_models.vehicle.coupling import QUESTION
 from fmpy.fmi2 import FMU2Model, FMU2Slave
 
 from contact.arrays import Array
 from contact.geometry.wheelset import Irregularity, Pose, Velocity
 from contact.pair import WheelRailPair
+from contact_models.vehicle.coupling import QUESTION
 
 _PATCHES = 3
 _WRENCH = tuple(f"{kind}.{axis}" for kind in ("force", "moment") for axis in "xyz")

@@ -14,6 +14,11 @@ from contextlib import ExitStack
 from pathlib import Path
 
 import numpy as np
+
+from contact.arrays import Array
+from contact.geometry import profile
+from contact.geometry.wheelset import Pair
+from contact.pair import WheelRailPair
 from contact_models.vehicle.coupling import Contact, OpenVehicle
 from contact_models.vehicle.course import lay
 from contact_models.vehicle.declared import read
@@ -21,11 +26,6 @@ from contact_models.vehicle.kernels.layout import Axis
 from contact_models.vehicle.simulation import SIDES, ContactOptions, Simulation
 from contact_models.vehicle.spectra import Irregularities
 from contact_models.vehicle.track import Curve, Track
-
-from contact.arrays import Array
-from contact.geometry import profile
-from contact.geometry.wheelset import Pair
-from contact.pair import WheelRailPair
 from examples.coupled_vehicle.contacts import InFmu, InPython
 
 SPEED = 15.0  # [m/s]

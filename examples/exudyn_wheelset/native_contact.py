@@ -9,12 +9,12 @@ from types import TracebackType
 
 import fmpy
 import numpy as np
-from contact_models.wheelset.parameters import WheelsetParameters
-from contact_models.wheelset.ports import POINTS
 from fmpy.fmi2 import FMU2Model
 
 from contact.arrays import Array
 from contact.geometry.wheelset import Pair, Patch, Pose
+from contact_models.wheelset.parameters import WheelsetParameters
+from contact_models.wheelset.ports import POINTS
 
 _APPROACH = 2  # value of load.kind
 _INPUTS = (

@@ -14,11 +14,6 @@ from typing import NamedTuple
 
 import exudyn as exu
 import numpy as np
-from contact_models.wheelset import master
-from contact_models.wheelset.components import direct
-from contact_models.wheelset.model import WheelsetModel
-from contact_models.wheelset.parameters import WheelsetParameters
-from contact_models.wheelset.ports import SIDES
 from exudyn.itemInterface import (
     CoordinateConstraint,
     MarkerBodyRigid,
@@ -29,6 +24,11 @@ from exudyn.itemInterface import (
 from exudyn.rigidBodyUtilities import RigidBodyInertia
 
 from contact.arrays import Array
+from contact_models.wheelset import master
+from contact_models.wheelset.components import direct
+from contact_models.wheelset.model import WheelsetModel
+from contact_models.wheelset.parameters import WheelsetParameters
+from contact_models.wheelset.ports import SIDES
 from examples.exudyn_wheelset.native_contact import NativeContact
 
 AXLE_BOX = 1.0  # [m] from the centre of the axle
@@ -167,7 +167,7 @@ def picture(runs: list[tuple[float, Motion, Motion]], path: Path) -> None:
     figure = Figure((8.0, 1.7 * len(runs)), layout="constrained")
     for axes, (speed, exudyn, own) in zip(figure.subplots(len(runs), sharex=True), runs, strict=True):
         axes.plot(exudyn.time, 1e3 * exudyn.lateral, label="exudyn + native FMU")
-        axes.plot(own.time, 1e3 * own.lateral, "--", label="models/wheelset")
+        axes.plot(own.time, 1e3 * own.lateral, "--", label="models/contact_models/wheelset")
         axes.set_ylabel(f"y [mm] at {speed:g} m/s")
         axes.grid(alpha=0.3)
     figure.axes[0].legend(loc="upper right", fontsize="small")

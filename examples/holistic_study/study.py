@@ -9,13 +9,13 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from contact_models.life.scale import Workers
 
 import contact
 from contact.arrays import Array
 from contact.damage import fatigue_index
 from contact.geometry import profile
 from contact.geometry.wheelset import Pair, Pose, Velocity
+from contact_models.life.scale import Workers
 
 PAIRS = (
     ("S1002", "60E1", 1 / 40),

@@ -10,15 +10,15 @@ from operator import add
 from pathlib import Path
 
 import numpy as np
-from contact_models.wheelset import master
-from contact_models.wheelset.components import direct
-from contact_models.wheelset.parameters import WheelsetParameters
-from contact_models.wheelset.ports import MOTION
 
 import contact
 from contact import plot
 from contact.accumulation import Histogram, save, worn_profile
 from contact.geometry.wheelset import Pair, Pose, Velocity
+from contact_models.wheelset import master
+from contact_models.wheelset.components import direct
+from contact_models.wheelset.parameters import WheelsetParameters
+from contact_models.wheelset.ports import MOTION
 
 SPEED = 20.0  # [m/s], below the critical speed
 AMPLITUDES = (1e-3, 2e-3, 3e-3)  # [m] amplitude of each wave of the track's centre line

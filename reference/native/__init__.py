@@ -16,11 +16,11 @@ from contact.compile.linking import OF_WINDOWS, WITHOUT_MINGW, compiler, run
 from contact.core import library
 from contact.inputs.options import N_ELEMENTS, N_STRIPS
 from contact.kernels.records import MAX_PATCHES
-from fmu_src.catalogue import models, vehicles
-from fmu_src.native import systems
-from fmu_src.native.component import Component
-from fmu_src.native.headers import HEADERS
-from models.wheelset.ports import POINTS
+from contact_fmu.catalogue import models, vehicles
+from contact_fmu.native import systems
+from contact_fmu.native.component import Component
+from contact_fmu.native.headers import HEADERS
+from contact_models.wheelset.ports import POINTS
 from reference.native import source
 
 ROOT = Path(__file__).parents[2]

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from fmu_src.description_fmi3 import value_references
-from fmu_src.native.component import Component
-from fmu_src.variables import Causality, Table, identifier
+from contact_fmu.description_fmi3 import value_references
+from contact_fmu.native.component import Component
+from contact_fmu.variables import Causality, Table, identifier
 
 
 def header(component: Component, guid: str) -> str:

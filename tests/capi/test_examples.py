@@ -13,7 +13,7 @@ from contact.compile.objects import objects
 from contact.geometry import profile
 from contact.geometry.wheelset import Pair, Pose, Velocity
 from contact.pair import WheelRailPair
-from fmu_src.native import systems
+from contact_fmu.native import systems
 from tests.capi.library import ROOT
 
 EXAMPLES, INCLUDE = ROOT / "examples", f"-I{ROOT / 'contact/include'}"

@@ -15,8 +15,8 @@ import contact
 from contact.geometry import conicity, profile
 from contact.geometry.wheelset import Pair, Pose, Velocity
 from contact.pair import WheelRailPair
+from contact_fmu.tables.wheel_rail_pair import table
 from explorer.bundle import RAILS, WHEELS
-from fmu_src.tables.wheel_rail_pair import table
 from reference.random_cases import PARTNERS
 from tests.explorer.wrong_files import FILES, written
 

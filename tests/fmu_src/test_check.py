@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from contact.errors import ContactError
-from fmu_src.check import compare
+from contact_fmu.check import compare
 
 TIME = np.arange(11) * 0.1
 REFERENCE = {"force.x": np.sin(TIME) * 1e3, "patch[1].n": 8e4 + TIME, "moment.z": np.cos(TIME)}

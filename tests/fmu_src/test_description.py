@@ -8,14 +8,14 @@ from xml.etree import ElementTree
 import pytest
 
 import contact
-from fmu_src import lint
-from fmu_src.catalogue import models, surfaces
-from fmu_src.description import model_description
-from fmu_src.documentation import markdown
-from fmu_src.native.packaging import INTERFACES as NATIVE
-from fmu_src.python.slave import INTERFACES
-from fmu_src.tables import solver, wheel_rail_contact
-from fmu_src.variables import Causality, Kind
+from contact_fmu import lint
+from contact_fmu.catalogue import models, surfaces
+from contact_fmu.description import model_description
+from contact_fmu.documentation import markdown
+from contact_fmu.native.packaging import INTERFACES as NATIVE
+from contact_fmu.python.slave import INTERFACES
+from contact_fmu.tables import solver, wheel_rail_contact
+from contact_fmu.variables import Causality, Kind
 
 TABLES = [*(model.table for points in (41, 4) for model in models(points)), surfaces().table]
 

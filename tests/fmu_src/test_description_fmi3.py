@@ -5,11 +5,11 @@ from xml.etree import ElementTree
 
 import pytest
 
-from fmu_src.catalogue import models, surfaces
-from fmu_src.description_fmi3 import model_description, value_references
-from fmu_src.documentation import markdown
-from fmu_src.native.packaging import INTERFACES_3
-from fmu_src.variables import Causality, Table, output, parameter, signal
+from contact_fmu.catalogue import models, surfaces
+from contact_fmu.description_fmi3 import model_description, value_references
+from contact_fmu.documentation import markdown
+from contact_fmu.native.packaging import INTERFACES_3
+from contact_fmu.variables import Causality, Table, output, parameter, signal
 
 TABLES = [*(model.table for model in models(41)), surfaces().table]
 

@@ -5,8 +5,8 @@ from zipfile import ZipFile
 
 import pytest
 
-from fmu_src import lint
-from fmu_src.lint import files, structure, variables
+from contact_fmu import lint
+from contact_fmu.lint import files, structure, variables
 
 DESCRIPTION = """<?xml version="1.0" encoding="UTF-8"?>
 <fmiModelDescription fmiVersion="2.0" modelName="M" guid="{123}" variableNamingConvention="structured">

@@ -7,7 +7,7 @@ import pytest
 
 from contact.errors import ContactError
 from contact.geometry import profile
-from fmu_src import profiles
+from contact_fmu import profiles
 
 
 def chosen(*words: object) -> dict[str, profile.Profile]:

@@ -5,10 +5,10 @@ from xml.etree import ElementTree
 
 import pytest
 
-from fmu_src.catalogue import models, surfaces, vehicles
-from fmu_src.description import model_description
-from fmu_src.native.packaging import INTERFACES
-from models.wheelset.ports import POINTS
+from contact_fmu.catalogue import models, surfaces, vehicles
+from contact_fmu.description import model_description
+from contact_fmu.native.packaging import INTERFACES
+from contact_models.wheelset.ports import POINTS
 from reference.native import SCENARIO
 
 #: Words that cannot name an element of a bus in MATLAB, and the longest name.

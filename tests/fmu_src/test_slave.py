@@ -8,9 +8,9 @@ import pytest
 from pythonfmu.enums import Fmi2Status
 
 from contact import ContactError
-from fmu_src.description import model_description
-from fmu_src.python.slave import INTERFACES, TableSlave
-from fmu_src.variables import Enumeration, Table, output, parameter, signal
+from contact_fmu.description import model_description
+from contact_fmu.python.slave import INTERFACES, TableSlave
+from contact_fmu.variables import Enumeration, Table, output, parameter, signal
 
 TABLE = Table(
     "Quotient",

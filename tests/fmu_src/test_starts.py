@@ -8,14 +8,14 @@ import pytest
 from contact.errors import ContactError
 from contact.friction import Friction
 from contact.inputs.material import Thermal
-from fmu_src import starts
-from fmu_src.catalogue import models, vehicles
-from fmu_src.native.table import content
-from fmu_src.tables import open_vehicle, vehicle
-from fmu_src.variables import Causality
-from models.runs import scenario
-from models.runs.scenario import Methods
-from models.wheelset.ports import POINTS
+from contact_fmu import starts
+from contact_fmu.catalogue import models, vehicles
+from contact_fmu.native.table import content
+from contact_fmu.tables import open_vehicle, vehicle
+from contact_fmu.variables import Causality
+from contact_models.runs import scenario
+from contact_models.runs.scenario import Methods
+from contact_models.wheelset.ports import POINTS
 
 #: Every number of friction differs from its default.
 FRICTION = {

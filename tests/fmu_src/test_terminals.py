@@ -6,8 +6,8 @@ from xml.etree import ElementTree
 import fmpy
 import pytest
 
-from fmu_src.catalogue import models, surfaces
-from fmu_src.terminals import of_table, terminals
+from contact_fmu.catalogue import models, surfaces
+from contact_fmu.terminals import of_table, terminals
 
 TABLES = {model.table.name: model.table for model in (*models(41, accumulation=True), surfaces())}
 SCHEMA = Path(fmpy.__file__).parent / "schema" / "fmi3" / "fmi3TerminalsAndIcons.xsd"

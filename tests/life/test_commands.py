@@ -11,9 +11,9 @@ import typer
 import xarray
 from typer.testing import CliRunner
 
-from models.runs import commands, progress, report
-from models.runs.run import VehicleRun
-from models.runs.trust import TRUST
+from contact_models.runs import commands, progress, report
+from contact_models.runs.run import VehicleRun
+from contact_models.runs.trust import TRUST
 
 SCENARIO = """
 name = "short & sharp"

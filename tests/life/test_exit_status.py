@@ -8,10 +8,10 @@ import typer
 from typer.testing import CliRunner
 
 from contact.cli.output import BAD_INPUT, INTERRUPTED, MISSING, NOT_TRUSTED
-from models.life.commands import wear
-from models.runs import commands, report
-from models.runs.run import VehicleRun
-from models.runs.trust import LARGEST_UNTRUSTED
+from contact_models.life.commands import wear
+from contact_models.runs import commands, report
+from contact_models.runs.run import VehicleRun
+from contact_models.runs.trust import LARGEST_UNTRUSTED
 from tests.command_line import call
 from tests.life.short_set import written
 from tests.life.trusts import BAD, GOOD

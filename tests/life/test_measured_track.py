@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 
 from contact.errors import ContactError, PlausibilityWarning
-from models.runs import scenario
-from models.vehicle.measured import Measured
-from models.vehicle.track import Track
+from contact_models.runs import scenario
+from contact_models.vehicle.measured import Measured
+from contact_models.vehicle.track import Track
 
 S = np.arange(0.0, 80.0, 0.25)
 ROWS = np.column_stack((S, 2e-3 * np.sin(S / 3), 1e-3 * np.sin(S / 2), 1e-3 * np.cos(S / 4), 5e-4 * np.cos(S)))

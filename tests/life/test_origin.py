@@ -7,12 +7,12 @@ from importlib.metadata import version
 import numpy as np
 import pytest
 
-from models.life import declared_set, wear_report
-from models.life.scale import Workers
-from models.life.wear import Life
-from models.runs import scenario
-from models.runs.origin import hashed, origin
-from models.vehicle import declared
+from contact_models.life import declared_set, wear_report
+from contact_models.life.scale import Workers
+from contact_models.life.wear import Life
+from contact_models.runs import scenario
+from contact_models.runs.origin import hashed, origin
+from contact_models.vehicle import declared
 from tests.life.short_set import written
 
 

@@ -8,9 +8,9 @@ import numpy as np
 import pytest
 
 from contact.errors import ContactError
-from models.life import declared_set, scale
-from models.life.scale import Workers
-from models.life.wear import Life
+from contact_models.life import declared_set, scale
+from contact_models.life.scale import Workers
+from contact_models.life.wear import Life
 from tests.life.short_set import written
 
 

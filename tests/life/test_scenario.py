@@ -9,9 +9,9 @@ from contact.damage import DamageParameters, Usfd
 from contact.errors import ContactError
 from contact.friction import Friction
 from contact.geometry import profile
-from models.runs import scenario
-from models.runs.run import VehicleRun
-from models.vehicle.track import Curve, Track
+from contact_models.runs import scenario
+from contact_models.runs.run import VehicleRun
+from contact_models.vehicle.track import Curve, Track
 
 EXAMPLES = Path(__file__).parents[2] / "examples" / "scenarios"
 LEAST = 'name = "x"\nlength = 100.0\nspeed = 20.0\n'

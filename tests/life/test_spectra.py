@@ -5,7 +5,7 @@ import pytest
 from scipy.integrate import quad
 
 from contact.errors import ContactError
-from models.vehicle.spectra import SPECTRA, Irregularities
+from contact_models.vehicle.spectra import SPECTRA, Irregularities
 
 
 @pytest.mark.parametrize(

@@ -3,9 +3,9 @@
 import pytest
 
 from contact.errors import ContactError
-from models.runs.scenario import read
-from models.runs.torque import Torque
-from models.toml import build
+from contact_models.runs.scenario import read
+from contact_models.runs.torque import Torque
+from contact_models.toml import build
 
 
 def test_lines_over_the_distance_of_the_axle():

@@ -7,15 +7,15 @@ import typer
 from typer.testing import CliRunner
 
 from contact.errors import ContactError
-from models.life import declared_set
-from models.life.declared_set import Steps
-from models.life.scale import Workers
-from models.life.wear import Life
-from models.runs import commands, report, result, scenario
-from models.runs.run import VehicleRun
-from models.runs.trust import TRUST, StepError, worst
-from models.vehicle.kernels.layout import Book
-from models.vehicle.kernels.wheels import count
+from contact_models.life import declared_set
+from contact_models.life.declared_set import Steps
+from contact_models.life.scale import Workers
+from contact_models.life.wear import Life
+from contact_models.runs import commands, report, result, scenario
+from contact_models.runs.run import VehicleRun
+from contact_models.runs.trust import TRUST, StepError, worst
+from contact_models.vehicle.kernels.layout import Book
+from contact_models.vehicle.kernels.wheels import count
 from tests.life.short_set import written
 from tests.life.trusts import BAD, GOOD
 

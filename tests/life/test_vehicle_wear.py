@@ -9,12 +9,12 @@ from contact.accumulation import Histogram
 from contact.errors import ContactError
 from contact.geometry import profile
 from contact.geometry.profile import Profile
-from models.life import declared_set, wear_report, wear_result
-from models.life.flange import Flange
-from models.life.part import Rail, Wheel, displacement
-from models.life.reprofiling import cut, forecast
-from models.life.scale import Workers
-from models.life.wear import Life
+from contact_models.life import declared_set, wear_report, wear_result
+from contact_models.life.flange import Flange
+from contact_models.life.part import Rail, Wheel, displacement
+from contact_models.life.reprofiling import cut, forecast
+from contact_models.life.scale import Workers
+from contact_models.life.wear import Life
 
 METHODS = '[methods]\nnormal = "analyn"\ntangential = "fastrip"\nstrips = 20\nelements = 12\n'
 CURVE = f"""
@@ -87,7 +87,9 @@ def test_the_second_step_runs_on_the_worn_profiles(life):
 
 def test_a_rail_wears_by_the_axle_passes_of_its_traffic(life):
     """Two thousand kilometres are 2 % of a year: 400 000 t, in axles of the wheelset's load."""
-    load = 2.0 * (1813.0 * 9.81 / 2.0 + 45657.0)  # wheelset and preloads of models/vehicle/included/wheelset.toml
+    load = 2.0 * (
+        1813.0 * 9.81 / 2.0 + 45657.0
+    )  # wheelset and preloads of models/contact_models/vehicle/included/wheelset.toml
     for rail in life.rails.values():
         assert rail["passes"].sum() == pytest.approx(4e5 * 1e3 * 9.81 / load, rel=1e-9)
     assert life.tonnes("right") == pytest.approx(4e5)

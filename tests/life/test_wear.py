@@ -10,12 +10,12 @@ from typer.testing import CliRunner
 
 from contact.errors import ContactError
 from contact.geometry import profile
-from models.life import commands, declared_set, wear_report
-from models.life.declared_set import Steps
-from models.life.flange import Flange
-from models.life.part import DENSITY, Wheel, displacement
-from models.life.scale import Workers
-from models.life.wear import Life
+from contact_models.life import commands, declared_set, wear_report
+from contact_models.life.declared_set import Steps
+from contact_models.life.flange import Flange
+from contact_models.life.part import DENSITY, Wheel, displacement
+from contact_models.life.scale import Workers
+from contact_models.life.wear import Life
 from tests.life.short_set import CURVE, SET, written
 
 EXAMPLES = Path(__file__).parents[2] / "examples" / "scenarios"

@@ -3,7 +3,7 @@
 import math
 
 from contact.geometry import profile
-from models.wheelset.parameters import WheelsetParameters
+from contact_models.wheelset.parameters import WheelsetParameters
 
 RAIL_RADIUS = 0.3
 

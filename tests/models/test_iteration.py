@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from models.wheelset.iteration import fixed_point
+from contact_models.wheelset.iteration import fixed_point
 
 UNIT = np.ones(4)
 

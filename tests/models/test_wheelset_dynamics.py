@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
-from models.wheelset import dynamics as d
+from contact_models.wheelset import dynamics as d
 
 W, V, R0 = 1.1e5, 30.0, 0.46
 

@@ -8,11 +8,11 @@ import pytest
 
 from contact.errors import ContactError
 from contact.geometry.wheelset import Pair, Pose, Velocity
-from models.wheelset import dynamics, master, reference
-from models.wheelset.components import direct
-from models.wheelset.model import WheelsetModel
-from models.wheelset.parameters import WheelsetParameters
-from models.wheelset.ports import CREEPAGE, CURVATURE, GAP, LOAD, SIDES
+from contact_models.wheelset import dynamics, master, reference
+from contact_models.wheelset.components import direct
+from contact_models.wheelset.model import WheelsetModel
+from contact_models.wheelset.parameters import WheelsetParameters
+from contact_models.wheelset.ports import CREEPAGE, CURVATURE, GAP, LOAD, SIDES
 from tests.models.rolling import RAIL_RADIUS, on_cones
 from tests.notebooks import drawn, words
 

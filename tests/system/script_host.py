@@ -8,7 +8,7 @@ import fmpy
 import numpy as np
 
 from contact.compile.linking import compiler
-from fmu_src.native.headers import HEADERS
+from contact_fmu.native.headers import HEADERS
 from reference.native import HOST, compile_program, resources_of
 
 SOURCE = HOST / "script.c"

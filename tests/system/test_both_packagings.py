@@ -11,7 +11,7 @@ from fmu_instance import DISCARD, Instance, discarded, refused
 from thesis_case import THESIS
 
 import contact
-from models.wheelset.ports import PROBLEM, REACTION
+from contact_models.wheelset.ports import PROBLEM, REACTION
 
 
 class Kind(NamedTuple):

@@ -4,8 +4,8 @@ from contextlib import ExitStack
 
 import pytest
 
+from contact_models.vehicle.simulation import ContactOptions
 from examples.coupled_vehicle.coupled import coupled, difference, fmu_contacts, in_one_kernel
-from models.vehicle.simulation import ContactOptions
 
 STEP, SAMPLES = 2e-4, 30
 

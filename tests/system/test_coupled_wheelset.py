@@ -1,4 +1,4 @@
-"""The coupled system of a wheelset and two contacts, as Python objects and as FMUs (readme of models/wheelset)."""
+"""The coupled system of a wheelset and two contacts, as Python objects and as FMUs (readme of `contact_models.wheelset`)."""
 
 import itertools
 import math
@@ -12,14 +12,14 @@ from thesis_case import THESIS
 import contact
 from contact import STEEL, Creepage, Separation, hertz, solve
 from contact.errors import ContactError
-from models.wheelset import master
-from models.wheelset.components import DirectWheelset, LinearContact, direct
-from models.wheelset.fmu import FmuComponent
-from models.wheelset.linear import LinearWheelset
-from models.wheelset.model import WheelsetModel
-from models.wheelset.parameters import WheelsetParameters
-from models.wheelset.ports import CONTACT_PORTS, MOTION, REACTION, SIDES, WHEELSET_PORTS
-from models.wheelset.stability import critical_speed, growth, state_matrix
+from contact_models.wheelset import master
+from contact_models.wheelset.components import DirectWheelset, LinearContact, direct
+from contact_models.wheelset.fmu import FmuComponent
+from contact_models.wheelset.linear import LinearWheelset
+from contact_models.wheelset.model import WheelsetModel
+from contact_models.wheelset.parameters import WheelsetParameters
+from contact_models.wheelset.ports import CONTACT_PORTS, MOTION, REACTION, SIDES, WHEELSET_PORTS
+from contact_models.wheelset.stability import critical_speed, growth, state_matrix
 from reference import stability
 from tests.models.rolling import RAIL_RADIUS, on_cones
 

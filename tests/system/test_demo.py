@@ -8,7 +8,7 @@ import pytest
 import typer
 from typer.testing import CliRunner
 
-from models.wheelset.demo import demo
+from contact_models.wheelset.demo import demo
 
 FILES = ["contacts_flange.png", "contacts_tread.png", "time_histories.png", "wheelset.csv"]
 

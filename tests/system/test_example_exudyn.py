@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from models.wheelset.parameters import WheelsetParameters
+from contact_models.wheelset.parameters import WheelsetParameters
 
 
 def test_wheelset_of_exudyn_hunts_like_our_own(native):

@@ -6,8 +6,8 @@ import pytest
 pytest.importorskip("matplotlib")
 pytest.importorskip("xarray")
 
+from contact_models.life.scale import Workers
 from examples.holistic_study import study
-from models.life.scale import Workers
 
 
 def test_small_study_is_whole_and_obeys_friction():

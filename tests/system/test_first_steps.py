@@ -6,7 +6,7 @@ from zipfile import ZipFile
 import fmpy
 import pytest
 
-from fmu_src.first_steps import FIRST, STEPS
+from contact_fmu.first_steps import FIRST, STEPS
 
 VEHICLES = ("Vehicle", "OpenVehicle")
 

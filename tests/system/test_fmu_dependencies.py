@@ -11,9 +11,9 @@ from fmpy.fmi1 import FMICallException
 from fmu_instance import Instance
 
 import contact
-from fmu_src.catalogue import models, vehicles
-from fmu_src.variables import Kind, Table
-from models.wheelset.ports import POINTS
+from contact_fmu.catalogue import models, vehicles
+from contact_fmu.variables import Kind, Table
+from contact_models.wheelset.ports import POINTS
 from reference.native import SCENARIO
 
 #: As coarse as a contact can be with sense: as many pairs of variables and outputs move as at 20 x 20, in a fifth of the time.

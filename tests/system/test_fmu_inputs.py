@@ -10,8 +10,8 @@ from fmpy.fmi1 import FMICallException
 from fmu_instance import DISCARD, Instance, refused
 
 from contact import Status
-from fmu_src.tables import wheel_rail_contact, wheel_rail_pair
-from fmu_src.variables import Causality
+from contact_fmu.tables import wheel_rail_contact, wheel_rail_pair
+from contact_fmu.variables import Causality
 
 CONTACT, PAIR = "WheelRailContact", "WheelRailPair"
 TABLES = {CONTACT: wheel_rail_contact.table(), PAIR: wheel_rail_pair.table()}

@@ -12,7 +12,7 @@ from contact.accumulation import MAXIMA, SUMS, Histogram
 from contact.damage import WEAR_LAWS, DamageParameters
 from contact.geometry import profile
 from contact.geometry.wheelset import Pair, Pose, Velocity
-from fmu_src.tables.wheel_rail_pair import BINS, BODIES
+from contact_fmu.tables.wheel_rail_pair import BINS, BODIES
 
 ON = {"accumulation.wear_law": 2}
 

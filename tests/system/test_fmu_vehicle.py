@@ -11,11 +11,11 @@ from fmpy.fmi2 import FMU2Slave
 from fmpy.ssp.ssd import read_ssd
 from pyssp_standard.ssp import SSP
 
+from contact_models.runs import scenario
+from contact_models.vehicle.course import lay
+from contact_models.vehicle.kernels.layout import Book
+from contact_models.vehicle.simulation import ContactOptions, Simulation
 from examples.coupled_vehicle.system import VehicleSystem
-from models.runs import scenario
-from models.vehicle.course import lay
-from models.vehicle.kernels.layout import Book
-from models.vehicle.simulation import ContactOptions, Simulation
 from reference.native import SCENARIO
 
 STEP, START, MANY = 2e-4, 30.0, 100

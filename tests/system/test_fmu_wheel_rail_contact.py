@@ -17,8 +17,10 @@ from thesis_case import THESIS
 
 import contact
 from contact.theory import kalker
-from fmu_src.catalogue import models
-from fmu_src.python.packaging import build  # imported here, since an FMU that is loaded first brings its own pythonfmu
+from contact_fmu.catalogue import models
+from contact_fmu.python.packaging import (
+    build,  # imported here, since an FMU that is loaded first brings its own pythonfmu
+)
 
 ROOT = Path(__file__).parents[2]
 

@@ -216,7 +216,7 @@ def exchanged(file: Path, folder: Path) -> tuple[Path, list[profile.Profile]]:
     command = [
         sys.executable,
         "-m",
-        "fmu_src.profiles",
+        "contact_fmu.profiles",
         path,
         *options,
         "--profile-unit",

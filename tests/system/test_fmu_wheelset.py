@@ -8,9 +8,9 @@ from fmpy.validation import validate_fmu
 from fmu_instance import DISCARD, refused
 from wheelset_case import reactions, reported, trajectory
 
-from models.wheelset.model import WheelsetModel
-from models.wheelset.parameters import WheelsetParameters
-from models.wheelset.ports import CONTACT_PORTS, PROBLEM, REACTION, SIDES, WHEELSET_PORTS
+from contact_models.wheelset.model import WheelsetModel
+from contact_models.wheelset.parameters import WheelsetParameters
+from contact_models.wheelset.ports import CONTACT_PORTS, PROBLEM, REACTION, SIDES, WHEELSET_PORTS
 
 NAME = "Wheelset"
 

@@ -19,13 +19,13 @@ from contact import Creepage, Separation
 from contact.geometry import profile
 from contact.geometry.wheelset import Pair, Pose, Velocity
 from contact.pair import WheelRailPair
-from fmu_src.tables.wheel_rail_contact import table
-from fmu_src.tables.wheel_rail_pair import table as pair_table
-from models.wheelset import master
-from models.wheelset.components import direct
-from models.wheelset.fmu import FmuComponent
-from models.wheelset.parameters import WheelsetParameters
-from models.wheelset.ports import CONTACT_PORTS, MOTION, SIDES, WHEELSET_PORTS
+from contact_fmu.tables.wheel_rail_contact import table
+from contact_fmu.tables.wheel_rail_pair import table as pair_table
+from contact_models.wheelset import master
+from contact_models.wheelset.components import direct
+from contact_models.wheelset.fmu import FmuComponent
+from contact_models.wheelset.parameters import WheelsetParameters
+from contact_models.wheelset.ports import CONTACT_PORTS, MOTION, SIDES, WHEELSET_PORTS
 
 EXAMPLES = Path(__file__).parents[2] / "examples" / "hosts"
 PYTHON = os.environ.get("HOSTS_PYTHON", sys.executable)

@@ -6,8 +6,8 @@ import sys
 from pathlib import Path
 
 from contact.core.library import ENVIRONMENT
-from fmu_src.catalogue import models
-from fmu_src.native import packaging
+from contact_fmu.catalogue import models
+from contact_fmu.native import packaging
 
 WHEELSET = next(model for model in models(41) if model.name == "wheelset")
 

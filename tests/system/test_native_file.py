@@ -15,7 +15,7 @@ from fmu_instance import Instance
 from pair_case import NAME as PAIR
 
 import contact
-from fmu_src import lint
+from contact_fmu import lint
 
 
 def test_fmpy_finds_no_problem(native):

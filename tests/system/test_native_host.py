@@ -10,11 +10,11 @@ import pytest
 from contact_case import NAME
 
 from contact.compile.linking import FLAGS, compiler, run
-from fmu_src.catalogue import models
-from fmu_src.native import systems, table
-from fmu_src.native.headers import HEADERS
-from fmu_src.native.kinds import KINDS
-from models.wheelset.ports import POINTS
+from contact_fmu.catalogue import models
+from contact_fmu.native import systems, table
+from contact_fmu.native.headers import HEADERS
+from contact_fmu.native.kinds import KINDS
+from contact_models.wheelset.ports import POINTS
 from reference.native import ATTACKED, ROLES, SANITIZED, kernel_library, kernel_objects, sanitized
 
 OTHERS = [name for name in ROLES if name != NAME]

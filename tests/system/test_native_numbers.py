@@ -10,7 +10,7 @@ from random_cases import METHODS, OUTPUTS, POINTS, STEP, Case, random_case
 import contact
 from contact import Status
 from contact.compile.objects import CPUS
-from fmu_src.tables.wheel_rail_contact import table
+from contact_fmu.tables.wheel_rail_contact import table
 from reference.native import kernel_library
 
 

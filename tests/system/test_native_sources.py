@@ -12,8 +12,8 @@ import pytest
 from script_host import Script
 
 from contact.compile.linking import compiler, run
-from fmu_src.native import systems
-from fmu_src.native.headers import HEADERS
+from contact_fmu.native import systems
+from contact_fmu.native.headers import HEADERS
 from reference.native import HOST, compile_once
 
 STRICT = ("-std=c11", "-Wall", "-Wextra", "-Werror")

@@ -12,8 +12,8 @@ import fmpy
 import numpy as np
 import pytest
 
-from fmu_src.native.table import MAGIC, NAME
-from fmu_src.resources import checksum
+from contact_fmu.native.table import MAGIC, NAME
+from contact_fmu.resources import checksum
 
 ROOT = Path(__file__).parents[2]
 NAMES = ("WheelRailContact", "WheelRailPair", "Wheelset")
@@ -97,8 +97,8 @@ def test_packing_loads_no_compiler(native, tmp_path):
 import sys
 from contextlib import suppress
 from pathlib import Path
-from fmu_src.catalogue import models
-from fmu_src.native import packaging
+from contact_fmu.catalogue import models
+from contact_fmu.native import packaging
 for model in models(30):
     packaging.build(model, Path({str(tmp_path)!r}))
 loaded = {{"numba", "llvmlite", "ziglang", "fmpy", "contact.compile.emit", "contact.compile.linking"}} & set(sys.modules)

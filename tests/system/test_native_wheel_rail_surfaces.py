@@ -19,9 +19,9 @@ from contact.geometry.surfaces import Flat, Polygon, RailSurface, SurfacePair, W
 from contact.geometry.wheelset import Irregularity, Pose, Velocity
 from contact.kernels.entries.surfaces import HEAD
 from contact.pair import WheelRailPair
+from contact_fmu import profiles, resources, surfaces
+from contact_fmu.tables.wheel_rail_surfaces import RAIL, WHEEL
 from examples.crossing.crossing import crossing
-from fmu_src import profiles, resources, surfaces
-from fmu_src.tables.wheel_rail_surfaces import RAIL, WHEEL
 
 ROOT = Path(__file__).parents[2]
 NAME = "WheelRailSurfaces"
@@ -259,7 +259,7 @@ def test_extreme_inputs_give_finite_outputs_or_none(open_fmu):
 
 
 def command(path: Path, *words: object) -> subprocess.CompletedProcess:
-    words = [sys.executable, "-m", "fmu_src.surfaces", path, *words]
+    words = [sys.executable, "-m", "contact_fmu.surfaces", path, *words]
     return subprocess.run([str(word) for word in words], cwd=ROOT, capture_output=True, text=True)
 
 

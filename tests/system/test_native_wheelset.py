@@ -15,13 +15,13 @@ from script_host import Script
 from thesis_case import THESIS
 from wheelset_case import NUMBERS, STATES, commands, inputs, reactions, reported, trajectory
 
-from fmu_src import lint
-from fmu_src.tables.wheelset import table
-from models.wheelset import master
-from models.wheelset.fmu import FmuComponent
-from models.wheelset.model import WheelsetModel
-from models.wheelset.parameters import WheelsetParameters
-from models.wheelset.ports import (
+from contact_fmu import lint
+from contact_fmu.tables.wheelset import table
+from contact_models.wheelset import master
+from contact_models.wheelset.fmu import FmuComponent
+from contact_models.wheelset.model import WheelsetModel
+from contact_models.wheelset.parameters import WheelsetParameters
+from contact_models.wheelset.ports import (
     CONTACT_PORTS,
     CREEPAGE,
     MOTION,

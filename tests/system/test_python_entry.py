@@ -16,8 +16,8 @@ from spellings import OF_WINDOWS, SPELLINGS
 
 from contact.compile.linking import OF_WINDOWS as C_OF_WINDOWS
 from contact.compile.linking import WITHOUT_MINGW, compiler, run
-from fmu_src.native.headers import HEADERS
-from fmu_src.python import entry
+from contact_fmu.native.headers import HEADERS
+from contact_fmu.python import entry
 
 FOLDERS = [
     "plain",

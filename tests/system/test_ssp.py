@@ -14,13 +14,13 @@ from fmpy.ssp.simulation import simulate_ssp
 from fmpy.ssp.ssd import read_ssd
 from pyssp_standard.ssp import SSP
 
-from fmu_src.ssp import STEP
-from models.wheelset import master
-from models.wheelset.components import direct
-from models.wheelset.parameters import WheelsetParameters
-from models.wheelset.ports import IRREGULARITY, LOAD, MOTION, PROBLEM, REACTION, SIDES
+from contact_fmu.ssp import STEP
+from contact_models.wheelset import master
+from contact_models.wheelset.components import direct
+from contact_models.wheelset.parameters import WheelsetParameters
+from contact_models.wheelset.ports import IRREGULARITY, LOAD, MOTION, PROBLEM, REACTION, SIDES
 
-PACKAGINGS = ["python", *(["native"] if find_spec("fmu_src.native.wheelset") else [])]
+PACKAGINGS = ["python", *(["native"] if find_spec("contact_fmu.native.wheelset") else [])]
 STEPS = 60
 
 

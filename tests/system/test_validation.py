@@ -10,14 +10,14 @@ from fmpy.util import read_csv, read_ref_opt_file
 from script_host import Script
 
 from contact.errors import ContactError
-from fmu_src import validation
-from fmu_src import validation_mirror as mirror
-from fmu_src.catalogue import models
-from fmu_src.check import compare
-from fmu_src.tables import open_vehicle
-from fmu_src.validation_cases import case
-from fmu_src.validation_momentum import momentum
-from models.wheelset.ports import POINTS
+from contact_fmu import validation
+from contact_fmu import validation_mirror as mirror
+from contact_fmu.catalogue import models
+from contact_fmu.check import compare
+from contact_fmu.tables import open_vehicle
+from contact_fmu.validation_cases import case
+from contact_fmu.validation_momentum import momentum
+from contact_models.wheelset.ports import POINTS
 
 MODELS = {model.table.name: model for model in models(POINTS)}
 NAMES = ("WheelRailPair", "EllipticContact")

@@ -1,7 +1,7 @@
 """The methods of the thesis as values of an FMU. Their answers do not depend on earlier steps, so tests may compare bits."""
 
 import contact
-from fmu_src.tables.solver import NORMAL_METHOD, TANGENTIAL_METHOD
+from contact_fmu.tables.solver import NORMAL_METHOD, TANGENTIAL_METHOD
 
 THESIS = {
     "method.normal": NORMAL_METHOD.number(contact.THESIS["normal"]),

@@ -4,10 +4,20 @@ import math
 
 from fmu_instance import Instance
 
-from fmu_src.tables.wheelset import table
-from models.wheelset.components import DirectWheelset
-from models.wheelset.model import WheelsetModel
-from models.wheelset.ports import CHANGE, CREEPAGE, ENERGY, FRAME, MOTION, PROBLEM, REACTION, SIDES, WHEELSET_PORTS
+from contact_fmu.tables.wheelset import table
+from contact_models.wheelset.components import DirectWheelset
+from contact_models.wheelset.model import WheelsetModel
+from contact_models.wheelset.ports import (
+    CHANGE,
+    CREEPAGE,
+    ENERGY,
+    FRAME,
+    MOTION,
+    PROBLEM,
+    REACTION,
+    SIDES,
+    WHEELSET_PORTS,
+)
 
 STATES = [row.name for row in table().states]
 INPUT_PORTS = {"irregularity", *(f"{side}.reaction" for side in SIDES)}

@@ -9,14 +9,14 @@ from pathlib import Path
 from contact.geometry import profile
 from contact.geometry.profile import Profile
 from contact.geometry.surfaces import WheelSurface
-from models.runs.run import VehicleRun
-from models.runs.scenario import Declaration, Methods, Profiles, Recording, Scenario
-from models.vehicle.course import lay
-from models.vehicle.declared import VehicleDeclaration, read
-from models.vehicle.sections import RailSection
-from models.vehicle.simulation import PACE, ContactOptions, Simulation
-from models.vehicle.spectra import Irregularities
-from models.vehicle.track import Track
+from contact_models.runs.run import VehicleRun
+from contact_models.runs.scenario import Declaration, Methods, Profiles, Recording, Scenario
+from contact_models.vehicle.course import lay
+from contact_models.vehicle.declared import VehicleDeclaration, read
+from contact_models.vehicle.sections import RailSection
+from contact_models.vehicle.simulation import PACE, ContactOptions, Simulation
+from contact_models.vehicle.spectra import Irregularities
+from contact_models.vehicle.track import Track
 
 #: Methods that are compiled and solved fast.
 FAST = ContactOptions(normal="analyn", tangential="fastrip", n_strips=20, n_elements=12)

@@ -4,10 +4,10 @@ import pytest
 
 from contact.errors import ContactError
 from contact.geometry import profile
-from models.vehicle import curving, hunting, linear
-from models.vehicle.declared import read
-from models.vehicle.kernels.layout import Sum
-from models.vehicle.track import Curve, Track
+from contact_models.vehicle import curving, hunting, linear
+from contact_models.vehicle.declared import read
+from contact_models.vehicle.kernels.layout import Sum
+from contact_models.vehicle.track import Curve, Track
 from tests.vehicle.parts import FAST, PACED, simulation
 
 PROFILES = profile.s1002(), profile.rail_60e1()

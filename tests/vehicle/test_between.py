@@ -7,14 +7,14 @@ import pytest
 
 from contact.errors import ContactError
 from contact.geometry import profile
-from models.runs.scenario import Methods
-from models.vehicle import linear
-from models.vehicle.course import lay
-from models.vehicle.declared import read
-from models.vehicle.kernels.layout import Axis, Book
-from models.vehicle.simulation import Simulation
-from models.vehicle.spectra import Irregularities
-from models.vehicle.track import Curve, Track
+from contact_models.runs.scenario import Methods
+from contact_models.vehicle import linear
+from contact_models.vehicle.course import lay
+from contact_models.vehicle.declared import read
+from contact_models.vehicle.kernels.layout import Axis, Book
+from contact_models.vehicle.simulation import Simulation
+from contact_models.vehicle.spectra import Irregularities
+from contact_models.vehicle.track import Curve, Track
 from tests.vehicle.parts import FAST, PACED, simulation
 
 STEP = 4e-4

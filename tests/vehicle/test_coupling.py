@@ -4,6 +4,8 @@ import numpy as np
 import pytest
 
 from contact.errors import ContactError
+from contact_models.vehicle.coupling import ANSWER, QUESTION, OpenVehicle
+from contact_models.vehicle.simulation import ContactOptions
 from examples.coupled_vehicle.coupled import (
     coupled,
     difference,
@@ -11,8 +13,6 @@ from examples.coupled_vehicle.coupled import (
     python_contacts,
     vehicle,
 )
-from models.vehicle.coupling import ANSWER, QUESTION, OpenVehicle
-from models.vehicle.simulation import ContactOptions
 
 OPTIONS = ContactOptions(normal="analyn", tangential="fastrip", n_strips=20, n_elements=12)
 STEP, SAMPLES = 2e-4, 30

@@ -7,10 +7,10 @@ import numpy as np
 import pytest
 
 from contact.errors import ContactError
-from models.vehicle.course import BEYOND, SPACING, lay
-from models.vehicle.kernels.layout import TrackRow
-from models.vehicle.spectra import Irregularities
-from models.vehicle.track import Curve, Friction, Track
+from contact_models.vehicle.course import BEYOND, SPACING, lay
+from contact_models.vehicle.kernels.layout import TrackRow
+from contact_models.vehicle.spectra import Irregularities
+from contact_models.vehicle.track import Curve, Friction, Track
 
 CURVE = Curve(start=20.0, radius=300.0, length=60.0, transition=30.0, cant=0.15)
 
@@ -107,7 +107,7 @@ def test_places_are_as_close_as_the_closest_stations(tmp_path):
 
 def test_a_track_with_too_many_places_is_refused(tmp_path, monkeypatch):
     track = joint(tmp_path, 0.005)
-    monkeypatch.setattr("models.vehicle.course.MOST_PLACES", 10_000)
+    monkeypatch.setattr("contact_models.vehicle.course.MOST_PLACES", 10_000)
     with pytest.raises(
         ContactError, match=r"stations are 0\.005 m apart, .* 1\.8e\+04 places .* at least 0\.009 m apart"
     ):

@@ -5,12 +5,12 @@ import pytest
 
 from contact.errors import ContactError
 from contact.geometry import profile
-from models.vehicle.course import lay
-from models.vehicle.declared import read
-from models.vehicle.kernels.layout import Axis
-from models.vehicle.simulation import Simulation
-from models.vehicle.spectra import Irregularities
-from models.vehicle.track import Curve, Track
+from contact_models.vehicle.course import lay
+from contact_models.vehicle.declared import read
+from contact_models.vehicle.kernels.layout import Axis
+from contact_models.vehicle.simulation import Simulation
+from contact_models.vehicle.spectra import Irregularities
+from contact_models.vehicle.track import Curve, Track
 from tests.vehicle.parts import FAST
 
 ROUGH = Track(

@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from contact.errors import ContactError
-from models.vehicle.assembly import GRAVITY, assemble
-from models.vehicle.declared import INCLUDED, read
+from contact_models.vehicle.assembly import GRAVITY, assemble
+from contact_models.vehicle.declared import INCLUDED, read
 
 
 @pytest.mark.parametrize("name", [path.stem for path in INCLUDED.glob("*.toml")])

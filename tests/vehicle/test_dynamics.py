@@ -7,10 +7,10 @@ import pytest
 
 from contact.errors import ContactError
 from contact.geometry import profile
-from models.vehicle.declared import Damper, Rail, read
-from models.vehicle.kernels.layout import Axis, Book, Sum
-from models.vehicle.spectra import Irregularities
-from models.vehicle.track import Curve, Friction, Track
+from contact_models.vehicle.declared import Damper, Rail, read
+from contact_models.vehicle.kernels.layout import Axis, Book, Sum
+from contact_models.vehicle.spectra import Irregularities
+from contact_models.vehicle.track import Curve, Friction, Track
 from tests.vehicle.parts import simulation
 
 ROUGH = {

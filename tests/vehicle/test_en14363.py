@@ -5,9 +5,9 @@ import math
 import numpy as np
 import pytest
 
-from models.vehicle import en14363
-from models.vehicle.en14363 import Section
-from models.vehicle.track import Curve, Track
+from contact_models.vehicle import en14363
+from contact_models.vehicle.en14363 import Section
+from contact_models.vehicle.track import Curve, Track
 
 
 def test_sections_are_straight_parts_and_circles_without_transitions():

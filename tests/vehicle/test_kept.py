@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 
 from contact.geometry import profile
-from models.runs import kept, scenario, stability
-from models.runs.run import VehicleRun
-from models.vehicle import hunting
+from contact_models.runs import kept, scenario, stability
+from contact_models.runs.run import VehicleRun
+from contact_models.vehicle import hunting
 
 PROFILES = (profile.s1002(), profile.rail_60e1())
 

@@ -9,9 +9,9 @@ import pytest
 from contact.errors import ContactError
 from contact.geometry import profile
 from contact.geometry.surfaces import WheelSurface
-from models.vehicle import linear
-from models.vehicle.declared import read
-from models.vehicle.kernels.layout import Axis
+from contact_models.vehicle import linear
+from contact_models.vehicle.declared import read
+from contact_models.vehicle.kernels.layout import Axis
 from tests.vehicle.parts import simulation
 
 #: Own calculation with 18 degrees of freedom, wheelsets held, no effect of weights: frequencies without dampers, with them

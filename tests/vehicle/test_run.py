@@ -9,20 +9,20 @@ import pytest
 from contact.errors import ContactError
 from contact.friction import Friction
 from contact.geometry import profile
-from models.life import declared_set
-from models.life.scale import Workers
-from models.life.wear import Life
-from models.runs import checkpoint, report, result
-from models.runs.run import VehicleRun
-from models.runs.scenario import Methods, Recording
-from models.runs.scenario import read as read_scenario
-from models.runs.torque import Torque
-from models.vehicle import assess, drawing
-from models.vehicle.declared import read
-from models.vehicle.kernels.layout import Axis
-from models.vehicle.simulation import SIDES
-from models.vehicle.spectra import Irregularities
-from models.vehicle.track import Curve, Track
+from contact_models.life import declared_set
+from contact_models.life.scale import Workers
+from contact_models.life.wear import Life
+from contact_models.runs import checkpoint, report, result
+from contact_models.runs.run import VehicleRun
+from contact_models.runs.scenario import Methods, Recording
+from contact_models.runs.scenario import read as read_scenario
+from contact_models.runs.torque import Torque
+from contact_models.vehicle import assess, drawing
+from contact_models.vehicle.declared import read
+from contact_models.vehicle.kernels.layout import Axis
+from contact_models.vehicle.simulation import SIDES
+from contact_models.vehicle.spectra import Irregularities
+from contact_models.vehicle.track import Curve, Track
 from tests.notebooks import drawn, parsed, words
 from tests.vehicle.parts import completed, scenario
 

@@ -9,15 +9,15 @@ import pytest
 from contact.errors import ContactError
 from contact.geometry import profile
 from contact.geometry.surfaces import RailSurface
+from contact_fmu import catalogue, track
+from contact_models.life import declared_set
+from contact_models.runs import report, result
+from contact_models.runs.run import VehicleRun
+from contact_models.runs.scenario import read as read_scenario
+from contact_models.vehicle.declared import read
+from contact_models.vehicle.kernels.layout import Book
+from contact_models.vehicle.sections import RailSection
 from examples.crossing import turnout
-from fmu_src import catalogue, track
-from models.life import declared_set
-from models.runs import report, result
-from models.runs.run import VehicleRun
-from models.runs.scenario import read as read_scenario
-from models.vehicle.declared import read
-from models.vehicle.kernels.layout import Book
-from models.vehicle.sections import RailSection
 from tests.vehicle.parts import simulation
 
 RAIL = np.stack((profile.rail_60e1().y, profile.rail_60e1().z), axis=1)

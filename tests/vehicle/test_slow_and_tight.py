@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from contact.errors import PlausibilityWarning
-from models.runs import scenario
-from models.runs.run import VehicleRun
+from contact_models.runs import scenario
+from contact_models.runs.run import VehicleRun
 
 DEPOT = """name = "depot"
 length = 12.0

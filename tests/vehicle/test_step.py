@@ -2,10 +2,10 @@
 
 import pytest
 
-from models.runs.run import VehicleRun
-from models.runs.scenario import Methods, Recording
-from models.vehicle.spectra import Irregularities
-from models.vehicle.track import Curve, Track
+from contact_models.runs.run import VehicleRun
+from contact_models.runs.scenario import Methods, Recording
+from contact_models.vehicle.spectra import Irregularities
+from contact_models.vehicle.track import Curve, Track
 from tests.vehicle.parts import completed, scenario
 
 #: Irregular track in a curve, where the flange root of the outer wheel slides.

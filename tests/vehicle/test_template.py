@@ -5,7 +5,7 @@ from dataclasses import fields
 import pytest
 from typer.testing import CliRunner
 
-from models.vehicle import declared, template
+from contact_models.vehicle import declared, template
 
 ALL = (declared.VehicleDeclaration, *template._TABLES.values())
 

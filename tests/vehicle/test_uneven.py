@@ -11,17 +11,17 @@ from contact.errors import ContactError
 from contact.geometry import profile
 from contact.geometry.surfaces import Flat, WheelSurface
 from contact.instance.workspace import closed_ledger
-from fmu_src import catalogue
-from models.life import declared_set
-from models.runs import report, result
-from models.runs.run import VehicleRun
-from models.runs.scenario import read as read_scenario
-from models.vehicle.course import lay
-from models.vehicle.declared import read
-from models.vehicle.kernels.layout import Book
-from models.vehicle.ledgers import ledger
-from models.vehicle.simulation import Simulation
-from models.vehicle.track import Track
+from contact_fmu import catalogue
+from contact_models.life import declared_set
+from contact_models.runs import report, result
+from contact_models.runs.run import VehicleRun
+from contact_models.runs.scenario import read as read_scenario
+from contact_models.vehicle.course import lay
+from contact_models.vehicle.declared import read
+from contact_models.vehicle.kernels.layout import Book
+from contact_models.vehicle.ledgers import ledger
+from contact_models.vehicle.simulation import Simulation
+from contact_models.vehicle.track import Track
 from tests.vehicle.parts import FAST, simulation
 
 RADIUS, SPEED = 0.46, 20.0  # [m], [m/s]

@@ -1,0 +1,203 @@
+"""What each native FMU has beside its variables: files in resources/, totals, messages and numbers of its own. No kernels."""
+
+from __future__ import annotations
+
+from enum import IntEnum, auto
+
+import numpy as np
+
+from contact import Status
+from contact.kernels.geometry.settle import DEEPEST
+from contact.kernels.records import LARGEST_ANGLE
+from contact_models.vehicle.assembly import assemble
+from contact_models.vehicle.declared import read
+from contact_models.wheelset import motion
+from .. import surfaces, track
+from ..profiles import MAGIC, ROWS
+from ..tables import open_vehicle, vehicle, wheel_rail_contact, wheel_rail_pair, wheel_rail_surfaces, wheelset
+from ..tables.vehicle import Starts
+from .component import Component, Resource, numbers
+
+WARNINGS: dict[int, str] = {s: f"status {s.name}: {s.message}" for s in (Status.OUT_OF_RANGE, Status.NOT_CONVERGED)}
+#: Outputs of a pair that are integrated over time: see `Component.totals`.
+TOTALS = {
+    "total.energy": ("power.friction", None),
+    "total.worn_volume": ("damage.archard_volume", "velocity.x"),
+    "total.distance": (None, "velocity.x"),
+    "total.T_gamma": ("damage.T_gamma", "velocity.x"),
+}
+#: Rows and columns of the derivatives that kernels know (`Component.derived`): those of `contact.kernels.jacobian`, and those
+#: of a pair, which are the members of `contact.kernels.rows.Moved`.
+CONTACT_DERIVED = (
+    ("force.x", "force.y", "moment.z", "force.n", "approach", "power.friction"),
+    (
+        *(f"creepage.{name}" for name in ("longitudinal", "lateral", "spin")),
+        *("load.normal_force", "load.approach", "friction.coefficient"),
+    ),
+)
+PAIR_DERIVED = (
+    (*(f"{kind}.{axis}" for kind in ("force", "moment") for axis in "xyz"), "wheelset.z"),
+    (*(name for name, _, _ in wheel_rail_pair.MOTION), "load.normal_force", "friction.coefficient"),
+)
+
+
+class Failure(IntEnum):
+    """Reasons to discard a step of a pair. Their numbers follow those of the statuses."""
+
+    NO_OVERLAP = max(Status) + 1
+    NOT_SETTLED = auto()
+    TOO_DEEP = auto()
+    ENDLESS = auto()
+    TURNED = auto()
+    GAUGE_POINT = auto()
+    STEEP = auto()
+    WHEEL = auto()
+    RAIL = auto()
+    ENDED = auto()  # of a vehicle
+    LOST = auto()
+
+
+class OpenFailure(IntEnum):
+    """Reasons to discard a step of a vehicle without contacts."""
+
+    ENDED = 1
+    LOST = 2
+
+
+OUT_OF_GAUGE = max(motion.MESSAGES) + 1  # of the wheelset
+_FAILURES: dict[int, str] = {
+    Failure.NO_OVERLAP: "pose.y: the profiles of wheel and rail do not overlap",
+    Failure.NOT_SETTLED: "load.normal_force: no height was found at which the wheel carries this load on this rail",
+    Failure.TOO_DEEP: f"pose.z: the wheel lies more than {DEEPEST:g} m inside its rail",
+    Failure.ENDLESS: "the accumulated damage has no finite value for these inputs",
+    Failure.TURNED: f"offset: with the wheelset's roll and yaw the wheel is turned by more than {LARGEST_ANGLE:g} rad",
+}
+_OF_PROFILES: dict[int, str] = {
+    **_FAILURES,
+    Failure.GAUGE_POINT: "track.gauge_point: the rail reaches no deeper on its gauge side",
+    Failure.STEEP: "rail.inclination: the rail is steep at its top",
+}
+_ENDED = "the vehicle is not on the track: it ends here (contact_fmu.track), or initial.distance is not on it"
+#: Largest distance [m] and angle [rad] of a body from its place; a vehicle that is further is lost.
+FARTHEST = 5.0
+_LOST = f"a body is more than {FARTHEST:g} m or rad from its place, or has no finite motion"
+_PROFILES = (
+    Resource(wheel_rail_pair.WHEEL, MAGIC["wheel"], ROWS),
+    Resource(wheel_rail_pair.RAIL, MAGIC["rail"], ROWS),
+)
+_TRACK = Resource(vehicle.TRACK, track.MAGIC, track.ROWS)
+
+
+def contact(points: int, elliptic: bool = False) -> Component:
+    """Return the FMU for separations of `points` samples, or the one that shows only constant curvatures."""
+    table = wheel_rail_contact.table(points, elliptic)
+    return Component(
+        kind="contact",
+        table=table,
+        own=numbers(table, points=points),
+        lazy=("creep_stiffness",),
+        derived=CONTACT_DERIVED[0],
+        derived_by=CONTACT_DERIVED[1],
+        totals={"total.energy": ("power.friction", None), "total.worn_volume": ("damage.archard_volume", "speed")},
+        warnings=WARNINGS,
+    )
+
+
+def pair(inclination: float, accumulation: bool = False) -> Component:
+    """Return the FMU. `inclination` is the default of `rail.inclination` (tangent); `accumulation` shows the bins."""
+    return Component(
+        kind="pair",
+        derived=PAIR_DERIVED[0],
+        derived_by=PAIR_DERIVED[1],
+        table=wheel_rail_pair.table(inclination, accumulation),
+        resources=_PROFILES,
+        totals=TOTALS,
+        accumulated=wheel_rail_pair.ACCUMULATED,
+        accumulates="accumulation.wear_law",
+        warnings=WARNINGS,
+        failures=_OF_PROFILES,
+    )
+
+
+def surface_pair() -> Component:
+    """Return the FMU of a pair whose wheel and rail change along the way."""
+    of = wheel_rail_surfaces
+    wrong = "its slices are not in order, or its numbers do not belong together"
+    return Component(
+        kind="surfaces",
+        derived=PAIR_DERIVED[0],
+        derived_by=PAIR_DERIVED[1],
+        table=of.table(),
+        resources=(
+            Resource(of.WHEEL, surfaces.MAGIC["wheel"], 1, of.MOST_NUMBERS),
+            Resource(of.RAIL, surfaces.MAGIC["rail"], 1, of.MOST_NUMBERS),
+        ),
+        totals=TOTALS,
+        warnings=WARNINGS,
+        failures={
+            **_FAILURES,
+            Failure.NO_OVERLAP: "pose.y: the wheel does not lie above its rail",
+            Failure.WHEEL: f"resource {of.WHEEL}: {wrong}",
+            Failure.RAIL: f"resource {of.RAIL}: {wrong}",
+        },
+    )
+
+
+def axle() -> Component:
+    """Return the FMU of a wheelset."""
+    too_deep = "the rail's side does not reach down to where the gauge is measured"
+    return Component(kind="wheelset", table=wheelset.table(), failures={**motion.MESSAGES, OUT_OF_GAUGE: too_deep})
+
+
+def whole_vehicle(vehicle: str, inclination: float, starts: Starts = ()) -> Component:
+    """Return the FMU of a vehicle. `inclination` is the default of `rail.inclination` (tangent)."""
+    from ..tables.vehicle import table
+
+    its = table(vehicle, inclination, starts)
+    return Component(
+        kind="vehicle",
+        table=its,
+        own=_of_vehicle(vehicle, its),
+        resources=(*_PROFILES, _TRACK),
+        warnings=WARNINGS,
+        failures={**_OF_PROFILES, Failure.ENDED: _ENDED, Failure.LOST: f"{_LOST}: resolution.step is too long"},
+        exchange=False,
+    )
+
+
+def vehicle_alone(vehicle: str, starts: Starts = ()) -> Component:
+    """Return the FMU of a vehicle that asks for the forces at its wheels."""
+    table = open_vehicle.table(vehicle, starts)
+    too_long = f"{_LOST}: the step is too long, or forces do not belong to the motion"
+    return Component(
+        kind="open_vehicle",
+        table=table,
+        own=_of_vehicle(vehicle, table),
+        resources=(_TRACK,),
+        failures={OpenFailure.ENDED: _ENDED, OpenFailure.LOST: too_long},
+        exchange=False,
+    )
+
+
+def _of_vehicle(name: str, table: wheel_rail_pair.Table) -> np.ndarray:
+    """Return the numbers of a vehicle: sizes, value references, then its arrays and the wheels' radius."""
+    declared = read(name)
+    made = assemble(declared)
+    arrays = (
+        made.bodies,
+        made.links,
+        made.elements,
+        made.table,
+        made.wheelsets,
+        made.rail,
+        np.array([declared.radius]),
+    )
+    sizes = {
+        "n_bodies": len(made.names),
+        "n_links": made.links.size,
+        "n_elements": made.elements.size,
+        "n_axles": made.wheelsets.size,
+        "n_table": made.table.shape[1],
+    }
+    words = [np.ascontiguousarray(part).view(np.int64).ravel() for part in arrays]
+    return np.concatenate([numbers(table, **sizes), *words])

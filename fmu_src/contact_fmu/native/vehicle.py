@@ -1,0 +1,300 @@
+"""Native Vehicle: `contact_models.vehicle.kernels` between the entries of the native WheelRailPair, with which it is linked.
+
+The parameters of the pair have the same value references in both FMUs. There is one workspace of the pair for each side; what
+a wheel's contact remembers is copied into it before the wheel is solved.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import Any, NamedTuple
+
+import numpy as np
+from numba import carray, types
+
+from contact import Status
+from contact.compile.pointers import TYPES, Doubles, integers_of, numbers_of
+from contact.core import arranging, group
+from contact.kernels.block import ahead, matrix, next_line, records, vector
+from contact.kernels.geometry.prepare import rail_origin, turn
+from contact.kernels.records import GIVEN
+from contact.kernels.rows import N_PROFILE_ROWS
+from contact_models.vehicle.kernels import motion
+from contact_models.vehicle.kernels.layout import ELASTIC, Book
+from ..tables import wheel_rail_pair as pair_table
+from ..tables.vehicle import TOTALS, WHEEL, table
+from ..variables import Causality, identifier
+from .component import places
+from .components import Failure
+from .kinds import SIGNATURES
+from .vehicle_parts import (
+    arrange,
+    constants_of,
+    fill,
+    has_ended,
+    is_near_track,
+    kept_by,
+    track_after,
+    write_motion,
+)
+from .wires import references
+
+
+def _entry_of_pair(name: str) -> Any:
+    """Return an entry of the native WheelRailPair as a function that kernels call."""
+    result, arguments = SIGNATURES[name]
+    return types.ExternalFunction(f"pair_{name}", TYPES[result](*(TYPES[kind] for kind in arguments), Doubles, Doubles))
+
+
+_pair_memory, _pair_size = _entry_of_pair("memory"), _entry_of_pair("size")
+_pair_prepare, _pair_outputs = _entry_of_pair("prepare"), _entry_of_pair("outputs")
+_N_TOTALS, _N_GIVEN = len(TOTALS), GIVEN.itemsize // 8
+_POSITION, _BY_LOAD = (pair_table.LOAD_KIND.number(name) for name in ("Position", "NormalForce"))
+_WORST_STATUS = max(int(status) for status in Status)
+
+
+_TABLE, _PAIR = table("manchester"), pair_table.table()  # the rows of a vehicle of whatever size; those of the pair
+_AT, _ITS = places(_TABLE), references(_PAIR)
+_N_PLACES = len(_AT)
+_N_ITS = _PAIR.span[pair_table.ACCUMULATED[0]].start
+_N_PARAMETERS = sum(s.row.causality is Causality.PARAMETER for s in _PAIR.scalars)
+if [s.name for s in _TABLE.scalars[:_N_PARAMETERS]] != [s.name for s in _PAIR.scalars[:_N_PARAMETERS]]:
+    raise ValueError("the parameters of the pair must come first, with its value references")
+_STARTS = np.array([scalar.first for scalar in _PAIR.scalars[:_N_ITS]], float)
+_SIDES = np.array([pair_table.SIDE.number(name) for name in ("Right", "Left")], float)
+#: Outputs of the pair that are copied: value reference of the pair, and position in `places` of the vehicle's row.
+_COPIED = np.array([(_PAIR.span[name].start, _AT.names.index(identifier(row))) for row, name in WHEEL.items()])
+#: Value references of the pair's rates of each total, and whether there is only one.
+_RATES = np.array([[_PAIR.span[rate].start for rate in (*rates, *rates)][:2] for _, _, rates in TOTALS.values()])
+_ALONE = np.array([len(rates) == 1 for _, _, rates in TOTALS.values()])
+_TOTAL_AT = _AT.names.index(identifier(f"wheel[].total.{next(iter(TOTALS))}"))
+
+
+@group
+class Contacts(NamedTuple):
+    """What solves the contacts: the pair's values and workspace for each side, and what the contact of each wheel remembers."""
+
+    values: Any  # shape (2, values)
+    memories: Any  # shape (wheels, size of a memory)
+    totals: Any  # shape (totals, wheels)
+    heights: Any  # of the wheelsets at the start
+    work: Any  # pointer to all working memory
+    values_at: Any  # place of the values in it, of the workspaces, and their size
+    works_at: Any
+    size: Any
+
+
+@arranging
+def _places(given):
+    """Return the record `places`, as an array of one."""
+    return records(given.own, 0, 1, _AT)[0]
+
+
+@arranging
+def _starts(given):
+    """Return the record as an array."""
+    return carray(integers_of(_places(given)), (_N_PLACES,))
+
+
+@arranging
+def _lay(values, work, given):
+    """Return the vehicle, its contacts, the place of the turned rail and the total size in numbers."""
+    resources, at = given.resources, _places(given)[0]
+    n_wheels = 2 * at.n_axles
+    memory, size = _pair_memory(values, resources, given.own), next_line(_pair_size(values, resources, given.own))
+    track, n_track = track_after(resources, 2)
+    totals, end = matrix(work, kept_by(at), _N_TOTALS, n_wheels)
+    memories, end = matrix(work, end, n_wheels, memory)
+    parts, end = arrange(work, end, track, n_track, at, constants_of(given.own, at, _N_PLACES))
+    heights, values_at = vector(work, end, at.n_axles)
+    of_sides, end = matrix(work, values_at, 2, _N_ITS)
+    n_wheel = int(carray(resources, (1,))[0])
+    n_rail = int(carray(ahead(resources, 1 + N_PROFILE_ROWS * n_wheel), (1,))[0])
+    turned, end = matrix(work, end, N_PROFILE_ROWS, n_rail)
+    works_at = next_line(end)
+    contacts = Contacts(of_sides, memories, totals, heights, work, values_at, works_at, size)
+    return parts, contacts, turned, works_at + 2 * size
+
+
+@arranging
+def _prepare_pairs(v, contacts, given):
+    """Fill values and workspaces of both sides; return 0 or the pair's code."""
+    for side in range(2):
+        values = contacts.values[side]
+        for i in range(_N_ITS):
+            values[i] = v[i] if i < _N_PARAMETERS else _STARTS[i]
+        values[_ITS.side], values[_ITS.load_kind] = _SIDES[side], _POSITION
+        code = _pair_prepare(
+            ahead(contacts.work, contacts.values_at + side * _N_ITS),
+            ahead(contacts.work, contacts.works_at + side * contacts.size),
+            given.resources,
+            given.own,
+        )
+        if code > 0:
+            return code
+    return 0
+
+
+@arranging
+def _solve(contacts, w, given):
+    """Solve the contact of wheel `w` for the values of its side; return the pair's code."""
+    side, memory = w % 2, contacts.memories[w]
+    values_at = contacts.values_at + side * contacts.values.shape[1]
+    work_at = contacts.works_at + side * contacts.size
+    its_memory, _ = vector(contacts.work, work_at, memory.size)
+    for i in range(memory.size):
+        its_memory[i] = memory[i]
+    code = _pair_outputs(
+        ahead(contacts.work, values_at), ahead(contacts.work, work_at), 0.0, given.resources, given.own
+    )
+    for i in range(memory.size):
+        memory[i] = its_memory[i]
+    return code
+
+
+@arranging
+def _begin(v, at, parts, contacts, given):
+    """Return 0 or the code of a contact that has no answer."""
+    model, speed = parts.model, v[at.speed]
+    for w in range(contacts.memories.shape[0]):
+        values, axle = contacts.values[w % 2], w // 2
+        for i in range(_N_GIVEN):
+            values[_ITS.pose_y + i] = 0.0
+        values[_ITS.velocity_x], values[_ITS.velocity_spin] = speed, -speed / v[at.wheel_radius]
+        values[_ITS.friction_coefficient] = v[at.friction_coefficient]
+        values[_ITS.load_kind], values[_ITS.load_normal_force] = _BY_LOAD, model.bodies[model.wheelsets[axle]].load
+        code = _solve(contacts, w, given)
+        values[_ITS.load_kind] = _POSITION
+        if code > _WORST_STATUS:
+            return code
+        contacts.heights[axle] = 0.5 * values[_ITS.wheelset_z] + (contacts.heights[axle] if w % 2 == 1 else 0.0)
+    contacts.memories[:] = 0.0
+    motion.place(model, parts.state, parts.motions, contacts.heights, v[at.initial_distance], speed)
+    parts.begun[0] = 1.0
+    return 0
+
+
+@arranging
+def _take(v, starts, values, wheel, w):
+    """Enter what the contact of wheel `w` does to the vehicle, and write its outputs."""
+    wheel.longitudinal, wheel.lateral = values[_ITS.force_x], values[_ITS.force_y]
+    wheel.vertical = -values[_ITS.force_z]
+    wheel.moment_x, wheel.moment_y = values[_ITS.moment_x], values[_ITS.moment_y]
+    wheel.moment_z, wheel.T_gamma = values[_ITS.moment_z], values[_ITS.damage_T_gamma]
+    wheel.status = values[_ITS.status]
+    wheel.normal, wheel.dissipation, wheel.elastic = 0.0, 0.0, 0.0
+    for k in range(int(values[_ITS.patches_count])):
+        n = values[_ITS.patch_n + k]
+        wheel.normal += n
+        wheel.elastic += ELASTIC * n * values[_ITS.patch_approach + k]
+        wheel.dissipation -= (
+            values[_ITS.patch_fx + k] * values[_ITS.patch_longitudinal + k]
+            + values[_ITS.patch_fy + k] * values[_ITS.patch_lateral + k]
+            + values[_ITS.patch_mz + k] * values[_ITS.patch_spin + k]
+        )
+    for i in range(_COPIED.shape[0]):
+        v[starts[_COPIED[i, 1]] + w] = values[_COPIED[i, 0]]
+
+
+@arranging
+def _press(v, parts, contacts, h, given):
+    """Solve all contacts, add up their totals over `h` [s]; return the worst status or the code of a failure."""
+    worst, starts = 0, _starts(given)
+    for w in range(contacts.memories.shape[0]):
+        values = contacts.values[w % 2]
+        numbers = carray(numbers_of(parts.scratch.given[w : w + 1]), (_N_GIVEN,))
+        for i in range(_N_GIVEN):
+            values[_ITS.pose_y + i] = numbers[i]
+        values[_ITS.friction_coefficient] = parts.scratch.seats[w].friction
+        code = _solve(contacts, w, given)
+        if code > _WORST_STATUS:
+            return code
+        worst = max(worst, code)
+        _take(v, starts, values, parts.scratch.wheels[w], w)
+        for i in range(_N_TOTALS):
+            rate = values[_RATES[i, 0]]
+            contacts.totals[i, w] += h * (rate if _ALONE[i] else rate * abs(values[_RATES[i, 1]]))
+    return worst
+
+
+@arranging
+def _advance(v, at, parts, contacts, h, given):
+    """Advance by `h` [s] in even steps; return a status or the number of a failure."""
+    model, state, scratch, motions, speed = parts.model, parts.state, parts.scratch, parts.motions, v[at.speed]
+    steps = max(math.ceil(min(h / v[at.resolution_step], 1e9) - 1e-6), 1)
+    step, code = h / steps, 0
+    for _ in range(steps):
+        if has_ended(parts):
+            return Failure.ENDED
+        motion.prepare_contacts(model, state, motions, scratch, speed)
+        code = _press(v, parts, contacts, step, given)
+        if code > _WORST_STATUS:
+            return code
+        if h > 0.0:
+            motion.move(model, state, motions, scratch, step, speed)
+        if not is_near_track(parts):
+            return Failure.LOST
+    return code
+
+
+@arranging
+def _report(v, at, parts, contacts, total_at):
+    write_motion(v, at.distance, at.body_x, parts)
+    books = parts.state.books
+    v[at.energy_dissipated], v[at.energy_residual] = books[Book.DISSIPATED], books[Book.RESIDUAL]
+    v[at.impacts], v[at.lifted] = books[Book.IMPACTS], books[Book.LIFTED]
+    for w in range(2 * at.n_axles):
+        wheel = parts.scratch.wheels[w]
+        v[at.wheel_force_x + w], v[at.wheel_force_y + w] = wheel.longitudinal, wheel.lateral
+        v[at.wheel_force_z + w] = -wheel.vertical
+        for i in range(_N_TOTALS):
+            v[total_at + 2 * at.n_axles * i + w] = contacts.totals[i, w]
+
+
+def model_memory(values, given):
+    at = _places(given)[0]
+    n_wheels = 2 * at.n_axles
+    return kept_by(at) + _N_TOTALS * n_wheels + n_wheels * _pair_memory(values, given.resources, given.own)
+
+
+def model_size(values, given):
+    return _lay(values, values, given)[3]
+
+
+def model_prepare(values, work, given):
+    at = _places(given)[0]
+    v = carray(values, (at.n_values,))
+    parts, contacts, turned, _ = _lay(values, work, given)
+    code = _prepare_pairs(v, contacts, given)
+    if code > 0:
+        return code
+    at_rail = 2 + N_PROFILE_ROWS * int(carray(given.resources, (1,))[0])
+    turn(carray(ahead(given.resources, at_rail), turned.shape), -math.atan(v[at.rail_inclination]), turned)
+    origin_y, origin_z, _ = rail_origin(turned, v[at.track_gauge], v[at.track_gauge_point])
+    fill(parts, constants_of(given.own, at, _N_PLACES), v[at.wheel_radius], origin_y, origin_z)
+    return 0
+
+
+def model_outputs(values, work, h, given):
+    at = _places(given)[0]
+    v = carray(values, (at.n_values,))
+    parts, contacts, _, _ = _lay(values, work, given)
+    parts.model.surface[0], parts.model.surface[1] = v[at.friction_coefficient], v[at.friction_kinetic]
+    if parts.begun[0] == 0.0:
+        code = _begin(v, at, parts, contacts, given)
+        if code > _WORST_STATUS:
+            return code
+    code = _advance(v, at, parts, contacts, h, given)
+    if code <= _WORST_STATUS:
+        _report(v, at, parts, contacts, _starts(given)[_TOTAL_AT])
+    return code
+
+
+def model_difference(values, reference, given):
+    return 1e-6
+
+
+def entries() -> dict[str, Any]:
+    """Return the functions of this kind (`kinds`), for vehicles of any size."""
+    called_by_c = (model_memory, model_size, model_prepare, model_outputs, model_difference)
+    return {function.__name__: function for function in called_by_c}

@@ -1,0 +1,129 @@
+"""Native WheelRailSurfaces: the functions that C calls, on one array of all values and one of working memory.
+
+The arrays of both surfaces lie in the resources and are read where they are. `contact_fmu.surfaces` writes them.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+from numba import carray
+
+from contact.core import arranging
+from contact.kernels import block, memory
+from contact.kernels.block import ahead
+from contact.kernels.entries.layout import fill
+from contact.kernels.entries.surfaces import is_sound, lay_bench, place_of, prepare_search
+from ..tables.wheel_rail_surfaces import FRAME, table
+from ..variables import Table
+from . import pair_parts
+from .components import Failure
+from .pair_parts import sizer
+from .wheel_rail_pair import DERIVED
+from .wires import references
+
+_TILTED = FRAME.number("Tilted")
+_STEP_ALONG, _STEP_ANGLE = 1e-6, 2e-6  # [m], [rad] for difference quotients
+
+
+@arranging
+def _found(resources):
+    """Return the numbers of the wheel's surface and how many they are, and those of the rail's."""
+    n_wheel = int(carray(resources, (1,))[0])
+    rest = ahead(resources, 1 + n_wheel)
+    return ahead(resources, 1), n_wheel, ahead(rest, 1), int(carray(rest, (1,))[0])
+
+
+@arranging
+def _lay(work, given, size):
+    """Lay out the bench. Return it, and what else `wheel_rail_pair` lays after it."""
+    wheel, n_wheel, rail, n_rail = _found(given.resources)
+    kept, end = block.vector(work, 0, memory.pair_memory_size(memory.memory_size(size)))
+    bench, _, end = lay_bench(work, end, wheel, n_wheel, rail, n_rail, size, kept, given.data)
+    search, end = memory.lay_surface_search(work, end, bench.search.wheel, bench.search.rail, size.n_samples)
+    near, end = memory.lay_beside(work, end, search, bench)
+    aside, end = memory.lay_aside(work, end, size, near)
+    derived, total = block.matrix(work, end, *DERIVED)
+    return bench, aside, (derived, end), total
+
+
+def _parameter_setter(table: Table) -> Callable[..., Any]:
+    """Return a compiled function that copies the parameters to the bench."""
+    at, set_shared = references(table), pair_parts.parameter_setter(table)
+
+    @arranging
+    def set_parameters(v, origin_y, origin_z, bench):
+        set_shared(v, origin_y, origin_z, bench)
+        motion = bench.search.motion[0]
+        motion.reach, motion.tilted = v[at.surfaces_reach], 1 if v[at.surfaces_frame] == _TILTED else 0
+        bench.ledger.settings[0].distance = 0.0
+
+    return set_parameters
+
+
+def _differ(table: Table) -> Callable[..., Any]:
+    """Return a compiled function that returns the step of a variable for difference quotients."""
+    at, as_pair = references(table), pair_parts.differ(table)
+
+    @arranging
+    def difference(v, reference):
+        if reference == at.pose_station:
+            return _STEP_ALONG
+        if reference == at.pose_rotation:
+            return _STEP_ANGLE
+        return as_pair(v, reference)
+
+    return difference
+
+
+def entries() -> dict[str, Callable[..., Any]]:
+    """Return the functions of this kind (`kinds`)."""
+    rows = table()
+    at, n_values = references(rows), len(rows.scalars)
+    set_parameters, report, difference = _parameter_setter(rows), pair_parts.reporter(rows), _differ(rows)
+    size, solve, derive = sizer(rows), pair_parts.step_solver(rows), pair_parts.deriver(rows)
+
+    def model_memory(values, given):
+        return memory.pair_memory_size(memory.memory_size(size(carray(values, (n_values,)))))
+
+    def model_size(values, given):
+        return _lay(values, given, size(carray(values, (n_values,))))[3]
+
+    def model_prepare(values, work, given):
+        v = carray(values, (n_values,))
+        wheel, n_wheel, rail, n_rail = _found(given.resources)
+        if not is_sound(wheel, n_wheel):
+            return Failure.WHEEL
+        if not is_sound(rail, n_rail):
+            return Failure.RAIL
+        bench, aside, _, _ = _lay(work, given, size(v))
+        fill(bench.own, v[at.material_poisson_ratio], given.data)
+        y, z = place_of(rail)
+        set_parameters(v, y, z, bench)
+        prepare_search(wheel, n_wheel, bench.search)
+        prepare_search(wheel, n_wheel, aside.bench.search)
+        return 0
+
+    def model_outputs(values, work, h, given):
+        v = carray(values, (n_values,))
+        bench, _, _, _ = _lay(work, given, size(v))
+        motion = bench.search.motion[0]
+        motion.station, motion.rotation = v[at.pose_station], v[at.pose_rotation] + v[at.offset_pitch]
+        failure = solve(values, v, memory.memory_size(size(v)), bench)
+        if failure > 0:
+            return failure
+        report(v, bench)
+        return bench.total[0].status
+
+    def model_jacobian(values, work, given):
+        v = carray(values, (n_values,))
+        bench, aside, (derived, begin), _ = _lay(work, given, size(v))
+        derive(values, v, bench, aside, derived)
+        return begin
+
+    def model_difference(values, reference, given):
+        return difference(carray(values, (n_values,)), reference)
+
+    called_by_c = (model_memory, model_size, model_prepare, model_outputs, model_jacobian, model_difference)
+    return {function.__name__: function for function in called_by_c}

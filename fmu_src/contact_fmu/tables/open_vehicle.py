@@ -1,0 +1,73 @@
+"""Variables of the FMU `OpenVehicle`, a vehicle without contacts: it asks FMUs `WheelRailPair`, one for each wheel.
+
+`wheel[k].` and a name of `WheelRailPair` connect to the pair of wheel k: the motion to its inputs, its forces back.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from functools import cache
+
+from contact_models.vehicle.declared import VehicleDeclaration, read
+from ..variables import Table, Variable, output, parameter, signal
+from . import vehicle
+from .vehicle import Starts, started
+from .wheel_rail_pair import MOTION
+
+#: What a pair answers.
+ANSWER = tuple(f"{kind}.{axis}" for kind in ("force", "moment") for axis in "xyz")
+#: Unit of an output → usual size.
+_NOMINAL = {"m": 1e-3, "rad": 1e-3, "m/s": 1.0, "rad/s": 1.0, "1": 0.1}
+#: What it is asked: its inputs in the order of the record GIVEN, then the friction.
+QUESTION = (*(name for name, *_ in MOTION), "friction.coefficient")
+
+
+@cache
+def table(vehicle: str, starts: Starts = ()) -> Table:
+    """Return the table for a vehicle as `contact_models.vehicle.declared.read` finds it, with the `starts` of a scenario."""
+    declared = read(vehicle)
+    return Table(
+        "OpenVehicle",
+        f"{declared.name} without contacts, on the track in resources. For each wheel, wheelset by wheelset, right "
+        "before left, it tells the motion that WheelRailPair takes, and takes its forces. Step the pairs before the "
+        "vehicle: then nothing is late.",
+        started([*_parameters(declared), *_inputs(declared), *_outputs(declared)], starts),
+        step_size=2e-4,
+    )
+
+
+def _parameters(declared: VehicleDeclaration) -> Iterable[Variable]:
+    n = len(declared.wheelsets)
+    yield vehicle.initial_distance()
+    yield parameter(
+        "initial.z",
+        "pose.z of each wheelset at the start, at which its wheels carry their load (WheelRailPair with NormalForce)",
+        unit="m",
+        shape=(n,),
+        start=1e-4,
+        nominal=1e-4,
+    )
+    yield parameter(
+        "rail.origin_y", "Distance of the origin of the rail's profile from the centre line", unit="m",
+        start=0.5 * declared.gauge,
+    )  # fmt: skip
+    yield parameter("rail.origin_z", "Height of this origin, positive down from the rail's top", unit="m", start=0.0)
+
+
+def _inputs(declared: VehicleDeclaration) -> Iterable[Variable]:
+    yield from vehicle.inputs()
+    for name in ANSWER:
+        kind, axis = name.split(".")
+        about = f"{kind.title()} of the rail on each wheel, track coordinates, {axis}"
+        unit = "N" if kind == "force" else "N.m"
+        yield signal(f"wheel[].{name}", about, unit=unit, shape=(2 * len(declared.wheelsets),), start=0.0, nominal=1e4)
+
+
+def _outputs(declared: VehicleDeclaration) -> Iterable[Variable]:
+    given = (*(row.name for row in _parameters(declared)), *(row.name for row in vehicle.inputs()))
+    n = 2 * len(declared.wheelsets)
+    for name, unit, about in (*MOTION, ("friction.coefficient", "1", "Coefficient of friction")):
+        yield output(
+            f"wheel[].{name}", f"{about}, to each pair", unit=unit, shape=(n,), nominal=_NOMINAL[unit], depends=given
+        )
+    yield from vehicle.motion(declared, given)

@@ -1,0 +1,328 @@
+"""Variables of the FMU `WheelRailPair`. Inputs: motion of a wheelset. Outputs: forces in track coordinates, patches, damage."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from functools import cache
+
+from contact import friction
+from contact.accumulation import MAXIMA, SUMS
+from contact.geometry.wheelset import SAMPLES
+from contact.inputs.options import (
+    COMBINE_ANGLE,
+    COMBINE_DISTANCE,
+    FLANGE_BACK,
+    GAUGE,
+    GAUGE_POINT,
+    RADIUS,
+    REFERENCE_SPEED,
+)
+from contact.kernels.records import LARGEST_ANGLE, LARGEST_RAIL_ROLL
+from ..variables import Enumeration, Limits, Table, Variable, output, parameter, signal, taken
+from . import solver
+
+SIDE = Enumeration("Side", (("Left", "the left wheel and rail"), ("Right", "the right wheel and rail")))
+LOAD_KIND = Enumeration(
+    "LoadKind",
+    (
+        ("NormalForce", "load.normal_force is carried by the normal forces alone, the height of the wheelset follows"),
+        ("Position", "pose.z is given, the normal force follows"),
+        ("VerticalForce", "load.normal_force is carried by normal and friction forces together, the height follows"),
+    ),
+)
+ACCUMULATE = Enumeration(
+    "Accumulate",  # Off, then the laws in the order of contact.damage.WEAR_LAWS
+    (
+        ("Off", "nothing accumulates; costs no time"),
+        *zip(
+            ("Archard", "Usfd", "UsfdLocal", "PearceSherratt"),
+            (
+                "wear depth by Archard's law with the map of KTH",
+                "wear depth by Sheffield's rate for each patch, spread evenly over its area",
+                "wear depth by Sheffield's rate for each element",
+                "wear depth by the area of Pearce and Sherratt, spread evenly over the area of each patch",
+            ),
+            strict=True,
+        ),
+    ),
+)
+PATCHES = 3
+BINS = 100  # over each profile
+BODIES = ("wheel", "rail")
+#: Rows that accumulate: first of the wheel, then of the rail, in the order of `contact.kernels.damage.deposit`.
+ACCUMULATED = tuple(f"accumulated.{body}.{name}" for body in BODIES for name in SUMS | MAXIMA)
+#: File names of the profiles in resources/ (`contact_fmu.profiles`). They show the right side and serve both sides.
+WHEEL, RAIL = "wheel.profile", "rail.profile"
+RESOURCES = (WHEEL, RAIL)
+
+#: Inputs in the order of the record GIVEN: name, unit, description.
+MOTION = (
+    ("pose.y", "m", "Lateral position of the wheelset's centre, positive to the right"),
+    ("pose.z", "m", "Height of the centre, positive down, 0 with both tape circles on the plane of the rails' tops"),
+    ("pose.roll", "rad", "Roll angle, positive lowers the right wheel"),
+    ("pose.yaw", "rad", "Yaw angle, clockwise seen from above"),
+    (
+        "velocity.x",
+        "m/s",
+        "Forward speed, negative when rolling backwards; creepages refer to its magnitude, but at least to reference_speed",
+    ),
+    ("velocity.y", "m/s", "Lateral velocity of the centre"),
+    ("velocity.z", "m/s", "Vertical velocity of the centre"),
+    ("velocity.roll", "rad/s", "Roll rate"),
+    ("velocity.yaw", "rad/s", "Yaw rate"),
+    ("velocity.spin", "rad/s", "Rotation about the axle, negative when rolling forward"),
+    ("irregularity.y", "m", "Lateral displacement of this rail"),
+    ("irregularity.z", "m", "Vertical displacement of this rail, positive down"),
+    ("irregularity.roll", "rad", "Roll of this rail about its profile's origin"),
+    ("irregularity.y_rate", "m/s", "Rate of irregularity.y as the wheel meets it"),
+    ("irregularity.z_rate", "m/s", "Rate of irregularity.z"),
+    ("irregularity.roll_rate", "rad/s", "Rate of irregularity.roll"),
+)
+_AGAINST = "of the wheel against its wheelset, as its axle and web bend"
+#: Inputs in the order of the record WHEEL_OFFSET: name, unit, description.
+OFFSET = (
+    ("offset.x", "m", f"Longitudinal displacement {_AGAINST}: of its datum, on the axle at the tape circle"),
+    ("offset.y", "m", f"Lateral displacement {_AGAINST}"),
+    ("offset.z", "m", f"Vertical displacement {_AGAINST}, positive down"),
+    ("offset.roll", "rad", f"Roll {_AGAINST}"),
+    ("offset.pitch", "rad", f"Pitch {_AGAINST}; without effect on a wheel of revolution"),
+    ("offset.yaw", "rad", f"Yaw {_AGAINST}"),
+    ("offset.x_rate", "m/s", "Rate of offset.x"),
+    ("offset.y_rate", "m/s", "Rate of offset.y"),
+    ("offset.z_rate", "m/s", "Rate of offset.z"),
+    ("offset.roll_rate", "rad/s", "Rate of offset.roll"),
+    ("offset.pitch_rate", "rad/s", "Rate of offset.pitch; adds to velocity.spin"),
+    ("offset.yaw_rate", "rad/s", "Rate of offset.yaw"),
+)
+_LIMITS: dict[str, Limits] = {
+    "pose.roll": {"minimum": -LARGEST_ANGLE, "maximum": LARGEST_ANGLE},
+    "pose.yaw": {"minimum": -LARGEST_ANGLE, "maximum": LARGEST_ANGLE},
+    "irregularity.roll": {"minimum": -LARGEST_RAIL_ROLL, "maximum": LARGEST_RAIL_ROLL},
+    **{f"offset.{angle}": {"minimum": -LARGEST_ANGLE, "maximum": LARGEST_ANGLE} for angle in ("roll", "pitch", "yaw")},
+    "velocity.x": {"nominal": 10.0},
+}
+_SPEED = 20.0
+_STARTS = {"velocity.x": _SPEED, "velocity.spin": -_SPEED / RADIUS.usual}
+
+#: Outputs of a patch in the order of the record CONTACT: name after `patch[k].`, unit, nominal, description.
+PATCH = (
+    ("n", "N", 1e5, "Normal force"),
+    ("fx", "N", 1e4, "Longitudinal creep force on the wheel"),
+    ("fy", "N", 1e4, "Lateral creep force on the wheel, along the contact plane"),
+    ("mx", "N.m", 10.0, "Moment of the normal pressure about the longitudinal axis"),
+    ("my", "N.m", 10.0, "Moment of the normal pressure about the lateral axis"),
+    ("mz", "N.m", 100.0, "Spin moment on the wheel"),
+    ("x", "m", 1e-3, "Point of application of forces and moments, track coordinates, longitudinal"),
+    ("y", "m", 1.0, "Point of application of forces and moments, track coordinates, lateral"),
+    ("z", "m", 1e-2, "Point of application of forces and moments, track coordinates, vertical, positive down"),
+    ("angle", "rad", 0.1, "Contact angle; the contact frame is the track frame turned about x by this angle"),
+    ("area", "m2", 1e-4, "Contact area"),
+    ("pmax", "Pa", 1e9, "Greatest contact pressure"),
+    ("longitudinal", "1", 1e-3, "Longitudinal creepage, wheel minus rail"),
+    ("lateral", "1", 1e-3, "Lateral creepage, wheel minus rail"),
+    ("spin", "rad/m", 0.1, "Spin creepage, wheel minus rail"),
+    ("approach", "m", 1e-4, "Rigid approach from first touch, along the normal"),
+    ("rail_y", "m", 1e-2, "Contact position on the profile of the rail, lateral, positive to the field side"),
+    ("rail_z", "m", 1e-2, "Contact position on the profile of the rail, vertical, positive down"),
+    (
+        "wheel_y",
+        "m",
+        1e-2,
+        "Contact position on the profile of the wheel, lateral from the tape circle, positive to the field side",
+    ),
+    ("wheel_z", "m", 1e-2, "Contact position on the profile of the wheel, vertical, positive down"),
+    ("used_friction", "1", 0.1, "Creep force over normal force"),
+)
+
+
+#: Rows of the damage that accumulates.
+OF_ACCUMULATION = frozenset((*ACCUMULATED, *(f"accumulation.{name}" for name in ("wear_law", "first", "width"))))
+
+
+@cache
+def table(inclination: float = 1.0 / 40.0, accumulation: bool = False) -> Table:
+    """Return the table. `inclination` is the default of `rail.inclination` (tangent).
+
+    Only with `accumulation` hosts see the damage that accumulates: it has 1500 outputs.
+    """
+    return Table(
+        "WheelRailPair",
+        "One wheel of a wheelset on one rail, with the profiles in resources: contact search, every patch, creep forces "
+        "and damage. T_gamma, the area of Pearce and Sherratt and the worn volume are sums over the patches. Other indices are "
+        "the greatest of all patches. Damage accumulates in bins over the arc length of both profiles. Forces act on the "
+        "wheel. Track frame: x forward, y to the right, z down. As co-simulation has no feedthrough, the outputs after a step "
+        "belong to the inputs before it: one communication step late.",
+        [*parameters(inclination), *inputs(), *outputs()],
+        step_size=1e-3,
+        hidden=frozenset() if accumulation else OF_ACCUMULATION,
+    )
+
+
+def parameters(inclination: float) -> Iterable[Variable]:
+    """Yield the parameters, which the FMU `Vehicle` has too. `inclination` is a default, as in `table`."""
+    yield parameter("side", "Which wheel and rail; the left side is the mirror image", enumeration=SIDE, start="Right")
+    yield parameter("load.kind", "How the load is given", enumeration=LOAD_KIND, start="NormalForce")
+    yield parameter("wheel.radius", "Nominal radius, at the tape circle", unit="m", **taken(RADIUS))
+    yield parameter("wheel.flange_back", "Distance between the backs of the flanges", unit="m", **taken(FLANGE_BACK))
+    yield parameter("track.gauge", "Track gauge", unit="m", **taken(GAUGE))
+    yield parameter(
+        "track.gauge_point",
+        "Depth below the top of the rail at which the gauge is measured",
+        unit="m",
+        **taken(GAUGE_POINT),
+        nominal=1e-2,
+    )
+    yield parameter(
+        "rail.inclination",
+        "Tangent of the angle by which the rail's profile is turned towards the track",
+        start=inclination,
+        minimum=0.0,
+        maximum=0.1,
+    )
+    yield parameter("patches.surface", "Surface of each patch", enumeration=solver.SURFACE, start="Plane")
+    yield parameter(
+        "patches.max",
+        "Greatest number of patches with their own plane; further patches share the plane of the last",
+        integer=True,
+        start=PATCHES,
+        minimum=1,
+        maximum=PATCHES,
+    )
+    yield parameter(
+        "patches.combine_distance",
+        "Neighbouring patches closer than this share one plane",
+        unit="m",
+        **taken(COMBINE_DISTANCE),
+        nominal=1e-2,
+    )
+    yield parameter(
+        "patches.combine_angle",
+        "Neighbouring patches whose contact angles differ by less than this share one plane",
+        unit="rad",
+        **taken(COMBINE_ANGLE),
+    )
+    yield from solver.parameters()
+    yield parameter(
+        "resolution.n_samples", "Samples of each separation", integer=True, start=SAMPLES, minimum=5, maximum=2001
+    )
+    yield parameter(
+        "accumulation.wear_law",
+        "Wear law of the damage that accumulates on both profiles at each doStep; nothing accumulates in model exchange",
+        enumeration=ACCUMULATE,
+        start="Off",
+    )
+    yield parameter(
+        "accumulation.first",
+        "Arc length at which the first bin begins; 0 is the profile's point nearest to y = 0, positive to the field side",
+        unit="m",
+        start=-0.06,
+        minimum=-1.0,
+        maximum=1.0,
+    )
+    yield parameter(
+        "accumulation.width", "Width of a bin", unit="m", start=1e-3, minimum=1e-5, maximum=1e-2, nominal=1e-3
+    )
+    for axis, way in (("y", "Lateral"), ("z", "Vertical")):
+        yield parameter(
+            f"rail.k{axis}",
+            f"{way} stiffness of the springs under this rail, which has no mass; 0 is rigid",
+            unit="N/m",
+            start=0.0,
+            minimum=0.0,
+            nominal=1e7,
+        )
+    for axis, way in (("y", "Lateral"), ("z", "Vertical")):
+        yield parameter(
+            f"rail.preload_{axis}", f"{way} external force on the rail on springs", unit="N", start=0.0, nominal=1e3
+        )
+    yield parameter(
+        "reference_speed",
+        "Speed below which creepages refer to it; there a wheel resists sliding like a damper, so an axle can stop and stand",
+        unit="m/s",
+        **taken(REFERENCE_SPEED),
+    )
+
+
+def inputs() -> Iterable[Variable]:
+    """Yield the inputs, which the FMU `WheelRailSurfaces` has too, as the outputs."""
+    for name, unit, description in MOTION:
+        used = {"load.kind": ("Position",)} if name == "pose.z" else {}
+        yield signal(name, description, unit=unit, start=_STARTS.get(name, 0.0), used=used, **_LIMITS.get(name, {}))
+    yield signal(
+        "load.normal_force",
+        "Vertical force on the wheel; load.kind says whether friction carries a part of it; not used with Position; "
+        + solver.NO_LOAD,
+        unit="N",
+        start=80e3,
+        minimum=solver.LEAST_LOAD,
+        nominal=1e5,
+        used={"load.kind": ("NormalForce", "VerticalForce")},
+    )
+    yield signal("friction.coefficient", "Coefficient of friction", start=0.3, minimum=0.0, maximum=friction.LARGEST)
+    for name, unit, description in OFFSET:
+        yield signal(name, description, unit=unit, start=0.0, **_LIMITS.get(name, {}))
+
+
+def outputs() -> Iterable[Variable]:
+    """Yield the outputs. Those that accumulate come last."""
+    for axis in "xyz":
+        yield output(f"force.{axis}", f"Force on the wheel, track coordinates, {axis}", unit="N", nominal=1e4)
+    for axis in "xyz":
+        yield output(
+            f"moment.{axis}",
+            f"Moment on the wheel about the wheelset's centre (0, pose.y, wheelset.z - wheel.radius), {axis}",
+            unit="N.m",
+            nominal=1e4,
+        )
+    yield output(
+        "wheelset.z", "Height pose.z of the solution: as given, or as found for the load", unit="m", nominal=1e-3
+    )
+    yield output("pressure.max", "Greatest contact pressure", unit="Pa", minimum=0.0, nominal=1e9)
+    yield output("patches.count", "Number of patches", integer=True, minimum=0, maximum=PATCHES)
+    yield output("patches.area", "Contact area of all patches", unit="m2", minimum=0.0, nominal=1e-4)
+    for name, unit, nominal, description in PATCH:
+        yield output(f"patch[].{name}", description, unit=unit, nominal=nominal, shape=(PATCHES,))
+    yield output("slip.ratio", "Slip area over contact area", minimum=0.0, maximum=1.0)
+    yield output("power.friction", "Frictional power", unit="W", minimum=0.0, nominal=1e3)
+    yield from solver.damage()
+    yield from solver.status_and_totals()
+    yield output(
+        "total.distance",
+        "Distance rolled since start, forwards and backwards",
+        unit="m",
+        start=0.0,
+        minimum=0.0,
+        depends=(),
+    )
+    yield output(
+        "total.T_gamma", "Wear number times distance since start", unit="J", start=0.0, minimum=0.0, depends=()
+    )
+    yield solver.gap_error()
+    yield output("wheel.Q", "Vertical force of the wheel on the rail, positive down", unit="N", nominal=1e5)
+    yield output(
+        "wheel.Y", "Lateral force of the wheel on the rail, positive outwards: flange contact", unit="N", nominal=1e4
+    )
+    yield output("wheel.Y_over_Q", "wheel.Y over wheel.Q; 0 without vertical force", nominal=0.1)
+    yield output("used_friction", "Sum of the creep forces of all patches over that of the normal forces", nominal=0.1)
+    for axis, way in (("y", "Lateral"), ("z", "Vertical")):
+        yield output(
+            f"rail.deflection_{axis}", f"{way} deflection of the rail on springs, in balance", unit="m", nominal=1e-3
+        )
+    yield solver.bend()
+    yield from _accumulated()
+
+
+def _accumulated() -> Iterable[Variable]:
+    """Yield the bins. They come last, since the native packaging stores them separately."""
+    for name in ACCUMULATED:
+        _, body, quantity = name.split(".")
+        unit, meaning = (SUMS | MAXIMA)[quantity]
+        if (body, quantity) == ("rail", "wear"):
+            unit = "m2"
+        yield output(
+            name,
+            f"Accumulated since start on the profile of the {body}: {meaning}",
+            unit=unit.replace(" ", "."),
+            shape=(BINS,),
+            depends=(),
+        )

@@ -1,0 +1,56 @@
+"""A track as a resource of the FMUs of vehicles: the rows of `contact_models.vehicle.course.lay`, without the speed, an input.
+
+`python -m contact_fmu.track FMU SCENARIO` replaces the track in a finished FMU by that of a scenario.
+"""
+
+from __future__ import annotations
+
+import argparse
+from pathlib import Path
+
+from contact.errors import ContactError
+from contact_models.runs import scenario
+from contact_models.runs.scenario import Scenario
+from contact_models.vehicle.course import lay
+from contact_models.vehicle.kernels.layout import TrackRow
+from . import archive, resources
+from .tables.vehicle import TRACK
+
+MAGIC = b"wr-track"
+ROWS = len(TrackRow)
+
+
+def pack(given: Scenario) -> bytes:
+    """Return the resource of the track of a scenario."""
+    d = given.declared
+    rows = lay(d.track, d.length, given.speed, (d.seed, *given.draw), d.recording.settling)
+    return resources.pack(MAGIC, rows)
+
+
+def exchange(fmu: Path, given: Scenario) -> None:
+    """Replace the track in an FMU file. If this fails, the file is unchanged.
+
+    Raises
+    ------
+    ContactError
+        If the file is not the FMU of a vehicle.
+    """
+    archive.exchange(fmu, {f"resources/{TRACK}": pack(given)}, "the FMU of a vehicle")
+
+
+def main() -> None:
+    """Replace the track of the FMU that the command line names."""
+    parser = argparse.ArgumentParser(description="Replace the track in a finished FMU of a vehicle.")
+    parser.add_argument("fmu", type=Path)
+    parser.add_argument("scenario", type=Path, help="TOML file with the table [track]")
+    arguments = parser.parse_args()
+    try:
+        given = scenario.read(arguments.scenario)
+        given.require_profiles(arguments.scenario.name, "the FMUs of a vehicle take")
+        exchange(arguments.fmu, given)
+    except (ContactError, ImportError, OSError) as error:
+        parser.error(str(error))
+
+
+if __name__ == "__main__":
+    main()
