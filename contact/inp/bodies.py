@@ -18,7 +18,7 @@ from contact.geometry.surfaces import RailSurface, SurfacePair, WheelSurface
 from contact.geometry.wheelset import TAPE_FROM_FLANGE_BACK, Pair, place_of_rail
 from contact.inp.case import Case
 from contact.inp.grid import material
-from contact.inp.mesh import Outline, Outlines
+from contact.inp.outline import Outline, Outlines
 from contact.inp.reasons import RefusedError, refuse
 from contact.kernels.records import LARGEST_RAIL_ROLL
 
@@ -77,13 +77,14 @@ def profiles(case: Case) -> Pair | None:
     )
 
 
-def outlines(case: Case) -> Outlines | None:
-    """Return the outlines of wheel and rail; None for a wheel that is not round, no rail on a roller and on slices."""
+def outlines(case: Case) -> Outlines:
+    """Return the outlines of wheel and rail; None for slices, and for a roller."""
     wheel, rail = body(case, "W"), body(case, "R")
-    if not isinstance(wheel, Profile):
-        return None
     straight = isinstance(rail, Profile) and not is_roller(case)
-    return Outlines(Outline.of(wheel), Outline.of(_rolled(cast(Profile, rail), case)) if straight else None)
+    return Outlines(
+        Outline.of(wheel) if isinstance(wheel, Profile) else None,
+        Outline.of(_rolled(cast(Profile, rail), case)) if straight else None,
+    )
 
 
 def key(case: Case) -> tuple[Any, ...]:

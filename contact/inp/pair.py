@@ -23,9 +23,11 @@ from contact.inp import approximate, bodies, fast, lobes, pressed, single
 from contact.inp.case import Case
 from contact.inp.grid import material
 from contact.inp.laws import of_strips
-from contact.inp.mesh import Outlines, cornered, flattened, flattened_rows, to_track
+from contact.inp.mesh import cornered, flattened, flattened_rows
+from contact.inp.outline import Outlines, to_track
 from contact.inp.reasons import refuse, require_digits
 from contact.inp.results import PatchResult, Result
+from contact.inp.search import Search
 from contact.inputs.creepage import Creepage
 from contact.instance.ownership import within
 from contact.kernels.enumerations import Height
@@ -87,7 +89,7 @@ class _FilePair(TransientPair):
     """A pair that takes friction, creepages and places of elements as the file and CONTACT give them."""
 
     case: Case
-    outlines: Outlines | None = None  # of a wheel of revolution
+    outlines: Outlines
     roller: Profile | None = None  # profile of the roller
 
     def take(self, case: Case) -> None:
@@ -135,7 +137,7 @@ class _FilePair(TransientPair):
         return single.law(case.changed(**values), inner.size, False)
 
     def _solved(self, patch: SurfacePatch, at: Instant) -> Solved:
-        if self.outlines is not None and not self.conformal:
+        if not self.conformal:
             patch = flattened(patch, self.pair, self._pose, self.outlines, self.case["DS"])
         if self.roller is not None and not self.conformal:
             patch = cornered(patch, self.pair.side, self.roller)
@@ -159,6 +161,9 @@ class _FilePair(TransientPair):
     def _solution(self, patches: Sequence[SurfacePatch], at: Instant) -> PairSolution:
         """Return the solution of patches as CONTACT separates them: beyond D_SEP each counts for itself, and fully."""
         limit = self.case["D_SEP"]
+        if not bodies.is_roller(self.case) and self.case.digits["T"] not in (1, 2):
+            search = Search(self.pair, self._pose, self.outlines, self.case)
+            patches = [search.patch(patch) for patch in patches]
         kept = [p for p in patches if p.share == 1.0 or not lobes.reaches_over(p.gap, p.approach, limit)]
         alone = [replace(p, share=1.0) for p in kept]
         if not self.conformal:
@@ -194,7 +199,7 @@ class _FilePair(TransientPair):
 
     def _true(self, patch: SurfacePatch) -> Elements:
         rows = super()._true(patch)
-        if self.outlines is None or not self.conformal:
+        if not self.conformal:
             return rows
         return flattened_rows(rows, patch, self.pair, self._pose, self.outlines, self.case["DS"])
 

@@ -7,7 +7,9 @@ from contact.geometry.records import Pose
 from contact.geometry.shape import Profile
 from contact.geometry.surfaces import SurfacePair
 from contact.halfspace.lattice import Lattice
-from contact.inp.mesh import Outline, Outlines, _bilinear, flattened
+from contact.inp.mesh import flattened
+from contact.inp.nodes import bilinear
+from contact.inp.outline import Outline, Outlines
 
 RADIUS, STEP = 0.05, 4e-4  # of the hollow wheel, and of the elements [m]
 
@@ -54,6 +56,6 @@ def test_a_place_that_no_piece_of_the_mesh_covers_has_no_height():
     i, j = np.meshgrid(np.arange(-3.0, 4.0), np.arange(3.0), indexing="ij")
     folded = np.stack((abs(i), j, np.full_like(i, 7.0)), axis=-1)  # x is at least 0
     x, y = np.array([[1.5, -1.0]]), np.ones((1, 2))
-    found = _bilinear(folded, x, y, np.full((1, 2), 5.0), y)
+    found = bilinear(folded, x, y, np.full((1, 2), 5.0), y)
     assert found[0, 0] == pytest.approx(7.0)
     assert np.isnan(found[0, 1])

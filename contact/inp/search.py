@@ -1,0 +1,203 @@
+"""CONTACT's search for contacts, whose reference points are not quite those of the surfaces.
+
+It follows the locus on the wheel at which it is nearest to the rail, and takes the wheel's curvature for that of the distance
+along the track. With D = 5, 6 and 9, and for wheels with slices, it looks at a coarse mesh: the wheel is sampled at the points
+of its profile and every 1.5 DX along, or at the paths of its slices and every 4 DX around, and interpolated bilinearly on a
+grid with steps of 3/4 DS across. Reference points are means over the overlap, weighted with the depth squared, and so are
+contact angles, for which the outline of the rail at the wheelset counts. They are some hundredths of a millimetre off those
+of the surfaces, and at the edge of a flat the elements see another pressure.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+from typing import NamedTuple
+
+import numpy as np
+
+from contact.arrays import Array
+from contact.geometry.records import Pose
+from contact.geometry.surfaces import SurfacePair, SurfacePatch
+from contact.geometry.surfaces.frame import Frame
+from contact.halfspace import Gap
+from contact.inp.case import Case
+from contact.inp.locus import locus
+from contact.inp.nodes import bilinear
+from contact.inp.outline import Outline, Outlines, standing
+from contact.inp.rail import Rail
+from contact.inp.sliced import SlicedWheel, about, near, odd
+from contact.instance.ownership import within
+from contact.kernels.geometry.section import AWAY
+
+#: A wheel with slices: half of the angle that is searched [rad], and the steps around it over DX.
+_HALF, _AROUND = 0.2, 4.0
+#: A round wheel: half of the length that is searched over its radius, that for steep slopes and small wheels, and the radius
+#: of these [m]; steps along it over DX.
+_LENGTH, _LONG, _SMALL, _ALONG = 0.125, 0.242, 0.0305, 1.5
+#: Steps across over DS: of the mesh, the same for steep slopes, and along the locus.
+_ACROSS, _STEEP, _LOCUS = 0.75, 0.3, 0.3
+#: [m] by which the search looks beyond a patch; least weight of a place [m²].
+_BEYOND, _LEAST = 3e-3, 1e-16
+
+
+class Found(NamedTuple):
+    """Where CONTACT puts a patch: x and track y of the reference point, contact angle, and the ranges of x and y [m]."""
+
+    x: float
+    y: float
+    angle: float
+    along: tuple[float, float]
+    across: tuple[float, float]
+
+
+class Search:
+    """CONTACT's search at the height of the last one. All in right-side form."""
+
+    def __init__(self, pair: SurfacePair, pose: Pose, bodies: Outlines, case: Case) -> None:
+        self.pair, self.pose, self.wheel, self.case = pair, pose, bodies.wheel, case
+        self.rail = Rail(pair, bodies.rail)
+        self.on_mesh = case["SEARCH"] in (5, 6, 9)
+        self.steps: tuple[float, float] = case["DX"], case["DS"]
+
+    def patch(self, patch: SurfacePatch) -> SurfacePatch:
+        """Return a patch where CONTACT puts it, on its elements; as it is where this search misses it."""
+        mirror = 1.0 if self.pair.side == "right" else -1.0
+        seen = patch.frame if mirror > 0.0 else patch.frame.mirrored
+        inside = (patch.gap.h < patch.approach).any(axis=1)
+        rows = mirror * patch.gap.y[inside] * seen.axes[1, 1]
+        view = Frame.turned(seen.origin * [0.0, 1.0, 1.0], 0.0)
+        box = float(rows.min()) - _BEYOND, float(rows.max()) + _BEYOND
+        columns = seen.origin[0] + patch.gap.x[[0, -1]]
+        if self.wheel is None or self.on_mesh:
+            found = self._brute(view, box, columns)
+        else:
+            found = self._locus(self.wheel, view, box)
+        if found is None:
+            return patch
+        frame = self._frame(view, found)
+        there = np.array(found.across) + view.origin[1] - frame.origin[1]
+        ends = self._heights(Frame(frame.origin, np.eye(3)), there)
+        across = there * frame.axes[1, 1] + ends * frame.axes[1, 2]
+        if not np.isfinite(across).all():
+            return patch
+        x, y = (
+            np.arange(math.floor(low / step) - 1, math.ceil(high / step) + 2) * step
+            for (low, high), step in zip((np.array(found.along) - found.x, np.sort(across)), self.steps, strict=True)
+        )
+        h = within(self.pair.distance)(frame, x, y)
+        if not h.min() < 0.0:
+            return patch
+        present = h < AWAY
+        return self._placed(patch, frame, Gap(x, y, np.where(present, h, h[present].max() + 1e-3)))
+
+    def _heights(self, frame: Frame, y: Array) -> Array:
+        """Return the heights of the rail over the axis x = 0 of a frame [m]."""
+        return self.rail.heights(frame, np.zeros(1), y)[:, 0]
+
+    def _frame(self, view: Frame, found: Found) -> Frame:
+        over = Frame(np.array([found.x, *view.origin[1:]]), view.axes)
+        z = float(self._heights(over, np.array([found.y]))[0])
+        return Frame.turned(over.origin + np.array([0.0, found.y, z]), found.angle)
+
+    def _brute(self, view: Frame, box: tuple[float, float], columns: Array) -> Found | None:
+        """Return where a patch lies whose y in a view is in a box, by a mesh of the wheel; None if the mesh misses it."""
+        steep = self.case["SEARCH"] == 6
+        step = (_STEEP if steep else _ACROSS) * self.steps[1]
+        first = self.rail.first(view, 1)
+        y = _multiples(first, step, box)
+        whole = self._nodes(view, steep)
+        x = np.linspace(float(whole[..., 0].min()), float(whole[..., 0].max()), whole.shape[1])
+        more = 3.0 * (x[1] - x[0]) + _BEYOND
+        x = x[(x > columns[0] - more) & (x < columns[1] + more)]
+        nodes = near(whole, y)
+        grid_x, grid_y = np.meshgrid(x, y)
+        wheel = bilinear(nodes, grid_x, grid_y, *about(nodes, x, y))
+        depth = wheel - self.rail.heights(view, x, y)
+        depth = np.where(np.isfinite(depth), depth, 0.0)
+        touching = depth > 0.0
+        if not touching.any():
+            return None
+        weight = np.where(touching, np.maximum(self._weight(depth), _LEAST), 0.0)
+        k, i = np.flatnonzero(touching.any(axis=0)), np.flatnonzero(touching.any(axis=1))
+        along = float(x[max(k[0] - 1, 0)]), float(x[min(k[-1] + 1, x.size - 1)])
+        across = float(y[max(i[0] - 1, 0)]), float(y[min(i[-1] + 1, y.size - 1)])
+        slopes = np.nan_to_num(self.rail.slopes(view, y))
+        total, by_row = float(weight.sum()), weight.sum(axis=1)
+        return Found(
+            float((weight.sum(axis=0) * x).sum()) / total,
+            float((by_row * y).sum()) / total,
+            float((by_row * slopes).sum()) / total,
+            along,
+            across,
+        )
+
+    def _weight(self, depth: Array) -> Array:
+        return np.asarray(depth if self.case.digits["WEIGHTING"] == 1 else depth**2)
+
+    def _nodes(self, view: Frame, steep: bool) -> Array:
+        """Return the nodes of the wheel's mesh in a view, shape (row, column, 3) [m]."""
+        radius, dx = self.pair.nominal_radius, self.steps[0]
+        if self.wheel is None:
+            angles = np.linspace(-_HALF, _HALF, odd(2.0 * _HALF * radius / (_AROUND * dx) + 2.0))
+            return SlicedWheel.of(self.pair, self.pose).nodes(angles, view)
+        half = (_LONG if steep or radius < _SMALL else _LENGTH) * radius
+        turn, origin = standing(self.pair, self.pose)
+        u = np.linspace(-half, half, odd(2.0 * half / (_ALONG * dx) + 2.0))
+        y, z = self.wheel.points.T[..., None]
+        points = np.stack(np.broadcast_arrays(u, y, np.sqrt((radius + z) ** 2 - u**2) - radius), axis=-1)
+        return np.asarray((points @ turn.T + (origin - view.origin)) @ view.axes.T)
+
+    def _locus(self, wheel: Outline, view: Frame, box: tuple[float, float]) -> Found | None:
+        """Return where a patch lies by the least distance at each y; the wheel's curvature stands for that along the track."""
+        step, curvature = _LOCUS * self.steps[1], 0.5 / self.pair.nominal_radius
+        first = self.rail.first(view, 0)
+        y = _multiples(first, step, box)
+        at, depth = locus(self.pair, self.pose, wheel, self.rail, view, y)
+        touching = depth > 0.0
+        if not touching.any():
+            return None
+        at, depth = np.where(touching, at, 0.0), np.where(touching, depth, 0.0)
+        # the integral over x of the depth, or of its square, of a parabola
+        half = np.sqrt(depth / curvature)
+        power = 1.0 if self.case.digits["WEIGHTING"] == 1 else 2.0
+        weight = depth**power * half
+        total = float(weight.sum())
+        i = np.flatnonzero(touching)
+        return Found(
+            float((weight * at).sum()) / total,
+            float((weight * y).sum()) / total,
+            float((weight * np.nan_to_num(self.rail.slopes(view, y))).sum()) / total,
+            (float((at - half)[touching].min()), float((at + half)[touching].max())),
+            (float(y[max(i[0] - 1, 0)]), float(y[min(i[-1] + 1, y.size - 1)])),
+        )
+
+    def _placed(self, patch: SurfacePatch, frame: Frame, gap: Gap) -> SurfacePatch:
+        """Return a patch with the distance `gap` over a frame."""
+        approach, right = -float(gap.h.min()), self.pair.side == "right"
+        h = gap.h + approach
+        seen = frame if right else frame.mirrored
+        place = seen.origin + approach * seen.axes[2]
+        rail_y, rail_z, roll = self.rail.place
+        y, z = frame.origin[1] - rail_y, frame.origin[2] - rail_z
+        turn, origin = standing(self.pair, self.pose)
+        local = turn.T @ (frame.origin + approach * frame.axes[2] - origin)
+        radius = math.hypot(local[0], local[2] + self.pair.nominal_radius)
+        return replace(
+            patch,
+            gap=Gap(gap.x, gap.y, h) if right else Gap(gap.x, -gap.y[::-1], h[::-1]),
+            approach=approach,
+            frame=seen,
+            angle=frame.turn[0] if right else -frame.turn[0],
+            position=(float(seen.origin[0]), float(seen.origin[1]), float(seen.origin[2])),
+            wheel_position=(float(place[0]), float(place[1]), float(place[2])),
+            on_rail=(y * math.cos(roll) + z * math.sin(roll), z * math.cos(roll) - y * math.sin(roll)),
+            on_wheel=(float(local[1]), radius - self.pair.nominal_radius),
+            rolling_radius=radius,
+        )
+
+
+def _multiples(first: float, step: float, box: tuple[float, float]) -> Array:
+    """Return the places in a box that lie at multiples of a step from the first one."""
+    k = np.arange(math.ceil((box[0] - first) / step), math.floor((box[1] - first) / step) + 1, dtype=np.float64)
+    return first + step * k

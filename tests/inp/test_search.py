@@ -1,0 +1,94 @@
+"""Where CONTACT's search puts a contact, and the heights between the nodes of its meshes."""
+
+import numpy as np
+import pytest
+
+from contact import inp
+from contact.geometry import profile
+from contact.inp.locus import _between
+from contact.inp.nodes import bicubic, bilinear
+
+#: A wheel on a rail under a given height.
+PAIR = """\
+ 1 MODULE
+ 1203000
+ 00{D}2033 {second}
+ 0001321
+   999 100 30 1 1e-5
+ .3 .3
+ .28 .28 82000. 82000.
+ {dx} {dx} 1.0 90d 8.0 4.0
+ -1.0 753.0 0.0 0.0
+ '{rail}' 0 1.0 0.0 -1
+ 0 0 0 0 0 0
+ 1360. -70. 460.
+ '{wheel}' 0 1.0 0.0 -1
+ 0 2.0 .15 0 {yaw} 0
+ 2000. 0 0 0 0 -4.348
+ 0 MODULE
+"""
+
+
+@pytest.fixture
+def solved(tmp_path):
+    """Return a function that solves a case on S1002 and 60E1, with slices of one profile if wanted."""
+    for name, one in (("wheel.prw2", profile.s1002()), ("rail.prr2", profile.rail_60e1())):
+        np.savetxt(tmp_path / name, 1e3 * np.stack((one.y, one.z), axis=1))
+    for name, one, at in (
+        ("rail.slcs", "rail.prr2", range(-300, 301, 100)),
+        ("wheel.slcw", "wheel.prw2", np.linspace(-3.0, 3.0, 25)),
+    ):
+        lines = ["0.0 1.0", f"{len(at)}", "0 0 0", "1", *(f"{u:.6f} '{one}'" for u in at)]
+        (tmp_path / name).write_text("\n".join(lines) + "\n")
+
+    def values(rail="rail.prr2", wheel="wheel.prw2", D=2, dx=0.4, yaw=0.0, second=""):
+        text = PAIR.format(rail=rail, wheel=wheel, D=D, dx=dx, yaw=yaw, second=second)
+        (tmp_path / "case.inp").write_text(text)
+        result = inp.solve(inp.read(tmp_path / "case.inp"))[0]
+        (patch,) = result.patches
+        return patch.values
+
+    return values
+
+
+def test_cubics_between_nodes_are_exact_for_parabolas_and_straight_lines_are_not():
+    i, j = np.meshgrid(np.arange(6.0), np.arange(5.0), indexing="ij")
+    nodes = np.stack((0.5 * j, 2.0 * i, i * i - 3.0 * i * j + j), axis=-1)
+    a, b = np.array([[2.3, 1.5]]), np.array([[1.2, 2.9]])
+    x, y, z = 0.5 * b, 2.0 * a, a * a - 3.0 * a * b + b
+    assert bicubic(nodes, x, y, a + 0.4, b - 0.3) == pytest.approx(z, abs=1e-12)
+    assert bilinear(nodes, x, y, a, b) - z == pytest.approx((a % 1.0) * (1.0 - a % 1.0), abs=1e-12)
+
+
+def test_the_spline_of_a_locus_breaks_where_it_jumps():
+    at = np.arange(8.0)
+    x = np.where(at < 4.0, 0.0, 30.0)
+    between = _between(at, np.stack((x, x), axis=1), np.array([1.5, 2.5, 3.5, 4.5, 6.2]))
+    assert between[:, 0] == pytest.approx([0.0, 0.0, 15.0, 30.0, 30.0], abs=1e-12)
+
+
+def test_a_rail_of_equal_slices_is_that_rail(solved):
+    straight, slices = solved(), solved(rail="rail.slcs")
+    for name, tolerance in (("FN", 2e-4), ("PMAX", 2e-4), ("APPROACH", 2e-4)):
+        assert slices[name] == pytest.approx(straight[name], rel=tolerance)
+    assert slices["YCP(TR)"] == pytest.approx(straight["YCP(TR)"], abs=2e-6)
+    assert slices["XCP(TR)"] == pytest.approx(straight["XCP(TR)"], abs=2e-6)
+
+
+def test_a_wheel_of_equal_slices_is_that_wheel_but_for_the_mesh(solved):
+    round_, slices = solved(D=5, dx=0.2), solved(D=5, dx=0.2, wheel="wheel.slcw")
+    for name, tolerance in (("FN", 2e-3), ("PMAX", 2e-3), ("APPROACH", 2e-3)):
+        assert slices[name] == pytest.approx(round_[name], rel=tolerance)
+
+
+def test_mesh_and_locus_lead_to_reference_points_some_micrometres_apart(solved):
+    for dx in (0.8, 0.2):
+        mesh, locus = (solved(D=D, dx=dx, yaw=0.02) for D in (5, 2))
+        apart = np.hypot(*(mesh[name] - locus[name] for name in ("XCP(TR)", "YCP(TR)")))
+        assert 1e-6 < apart < 1e-5
+
+
+def test_linear_weights_move_the_reference_point_and_not_the_force(solved):
+    squared, linear = solved(), solved(second="11")
+    assert abs(linear["YCP(TR)"] - squared["YCP(TR)"]) > 1e-5
+    assert linear["FN"] == pytest.approx(squared["FN"], rel=3e-3)
