@@ -32,7 +32,7 @@ _MOST, _SHORTEST, _TOLERANCE, _ACCEPTABLE = 20, 1e-14, 1e-9, 1e-3
 #: So many trials that do not bring the residual down to a share of it mean that the force jumps.
 _SHARE, _JUMP = 0.25, 6
 #: Methods that iterate: target; residual that counts as noise of the iteration after so many such trials.
-_ITERATED, _NOISE, _IDLE = 6e-7, 1e-4, 2
+_ITERATED, _NOISE, _IDLE = 2e-6, 1e-4, 2
 #: Target and accepted residual on surfaces that change along the way, the second with friction. On the edge of a fresh flat the
 #: force is not smooth in z.
 _ROUGHER, _ACCEPTABLE_ROUGH = 1e-7, 1e-2
@@ -132,15 +132,17 @@ def _prepared(n, bench):
 
 @kernel
 def _solve(n, pressed, enters, bench):
-    """Solve the `n` patches of the last search and add up. The ledger is filled if `enters` says so.
+    """Solve the `n` patches of the last search and add up. Return d(ln N)/dz of their normal forces, vertically [1/m].
 
-    `pressed` is the number of strips of a single patch whose normal problem is solved already, or below 0.
+    `pressed` is the number of strips of a single patch whose normal problem is solved already, or below 0. The ledger is
+    filled if `enters` says so.
     """
     own, total, result = bench.own, bench.total[0], bench.result[0]
     damage, case, motion = bench.damage[0], bench.patch_case[0], bench.search.motion[0]
     for k in range(MAX_PATCHES):
         clear_contact(bench.contacts[k])
     clear_total(total)
+    normal, stiffness = 0.0, 0.0
     for k in range(n):
         patch, contact = bench.search.patches[k], bench.contacts[k]
         n_strips = pressed if pressed >= 0 else _press_patch(k, bench)
@@ -150,6 +152,9 @@ def _solve(n, pressed, enters, bench):
         report(patch, case, result, pressure, contact)
         if n_strips > 0:
             patch.load = result.N
+            cosine = math.cos(patch.angle) * math.cos(patch.pitch)
+            normal += patch.share * result.N * cosine
+            stiffness += patch.share * result.stiffness * cosine * cosine
             add_wrench(contact, pressure, patch.share, motion, total)
             add_results(result, damage, patch.share, total)
             total.gap_error = max(total.gap_error, contact.gap_error)
@@ -158,6 +163,7 @@ def _solve(n, pressed, enters, bench):
     total.z, total.n_patches = motion.z, n
     compare_forces(total)
     mirror_answer(motion.mirror, n, bench.contacts, total)
+    return stiffness / normal if normal > 0.0 else 0.0
 
 
 @kernel
@@ -174,20 +180,18 @@ def _carried(mode, n, bench):
 def _begin_under(force, search, root):
     """Begin the search of the height that carries `force` [N]. Return whether the bodies lie above each other, first touch.
 
-    Points of the search are depths below first touch, where nothing is carried. The third value is for `describe`. The first
-    guess is corrected by ANALYN's force there, which is right to some per cent.
+    Points of the search are depths below first touch. The third value is for `describe`. The first guess is corrected by
+    ANALYN's force there, which is right to some per cent.
     """
     motion = search.motion[0]
     above, touch, nodes = begin(search, motion.z)
     if not above:
         return above, touch, nodes
-    target, size = force ** (2.0 / 3.0), size_of(motion)
+    size = size_of(motion)
     guess = first_depth(force, size)
-    begin_root(root, 0.0, target / guess, 0.0, DEEPEST * size)
-    advance(root, -target, _SHORTEST, _MOST)
     found = carried(describe(search, touch + guess, nodes), search)
-    if found > 0.0:
-        root.x = min(guess * (force / found) ** (2.0 / 3.0), 4.0 * guess, root.last)
+    depth = min(guess * (force / found) ** (2.0 / 3.0), 4.0 * guess, DEEPEST * size) if found > 0.0 else guess
+    begin_root(root, depth, force ** (2.0 / 3.0) / depth, 0.0, DEEPEST * size)
     return above, touch, nodes
 
 
@@ -202,9 +206,10 @@ def _from_nothing(n, bench):
 def _solve_under(mode, force, bench):
     """As `solve_pair` for Height.LOAD and Height.VERTICAL: find the height by bracketed secants over the own forces.
 
-    The force grows with the power 3/2 of the depth, so the secants are those of its power 2/3. All trials start from nothing,
-    so the answer is that of the height alone. Under a load, a single patch has no tangential problem before the height is
-    found. Where the force jumps over the load, the nearest height found is the answer, with the status NOT_CONVERGED.
+    The force grows with the power 3/2 of the depth, so the secants are those of its power 2/3. The slope at the first trial is
+    that of the normal method, right to some per cent. All trials start from nothing, so the answer is that of the height
+    alone. Under a load, a single patch has no tangential problem before the height is found. Where the force jumps over the
+    load, the nearest height found is the answer, with the status NOT_CONVERGED.
     """
     search, total, motion, root = bench.search, bench.total[0], bench.search.motion[0], bench.roots[2]
     if force <= 0.0:
@@ -227,11 +232,14 @@ def _solve_under(mode, force, bench):
         n = _from_nothing(describe(search, z, nodes), bench)
         pressed = _press_patch(0, bench) if mode == Height.LOAD and n == 1 else -1
         if pressed < 0:
-            _solve(n, -1, False, bench)
+            growth = _solve(n, -1, False, bench)
             reached = _carried(mode, n, bench)
         else:
-            patch = search.patches[0]
-            reached = bench.result[0].N * math.cos(patch.angle) * math.cos(patch.pitch) if pressed > 0 else 0.0
+            patch, result = search.patches[0], bench.result[0]
+            cosine = math.cos(patch.angle) * math.cos(patch.pitch)
+            reached, growth = (result.N * cosine, result.stiffness / result.N * cosine) if pressed > 0 else (0.0, 0.0)
+        if root.evaluations == 0 and reached > 0.0 and growth > 0.0:
+            root.slope = 2.0 / 3.0 * reached ** (2.0 / 3.0) * growth
         missing = abs(reached - force) / force
         if missing < best:
             best, z_best = missing, z

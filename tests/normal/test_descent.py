@@ -21,7 +21,7 @@ def test_elimination_solves_both_sides(m):
     matrix = rng.random((m, m)) + m * np.eye(m)
     first, second = rng.random(m), rng.random(m)
     expected = np.linalg.solve(matrix, np.stack((first, second), axis=1))
-    eliminate(matrix.copy(), m, first, second)
+    eliminate(matrix.T.copy(), m, first, second)
     np.testing.assert_allclose(np.stack((first, second), axis=1), expected, rtol=1e-10)
 
 
@@ -120,6 +120,7 @@ def _two_panels(n):
         own = slice(first, first + n)
         vectors[Vector.Y, own], vectors[Vector.HALF, own] = centre + half * middles, 0.5 * half * np.diff(cosines)
         vectors[Vector.A, own] = vectors[Vector.P, own] = half * np.sqrt(1 - middles**2)
+        vectors[Vector.LN_LENGTH, own] = np.log(vectors[Vector.A, own])
     return vectors
 
 

@@ -83,14 +83,14 @@ def test_the_answer_under_a_load_does_not_depend_on_the_poses_before():
 
 
 @pytest.mark.parametrize("kind", ["load", "vertical"])
-def test_three_or_four_trials_find_the_height(kind):
-    """There were ten, and each of them was a whole solution."""
+def test_three_trials_find_the_height_on_average(kind):
+    """There were ten, and each of them was a whole solution; then 3.4."""
     pair, counts = WheelRailPair(Pair(WHEEL, RAIL)), []
     for y in np.linspace(-4e-3, 6e-3, 21):
         assert pair.solve(Pose(y=y), VELOCITY, **{kind: 80e3}).status is not Status.NOT_CONVERGED
-        counts.append(int(pair.bench.roots["evaluations"][-1]) - 1)  # the first one is first touch
-    assert np.mean(counts) < 4.0
-    assert max(counts) <= 7
+        counts.append(int(pair.bench.roots["evaluations"][-1]))
+    assert np.mean(counts) < 3.3
+    assert max(counts) <= 6
 
 
 @pytest.mark.parametrize("kind", ["load", "vertical"])

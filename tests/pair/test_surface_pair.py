@@ -363,12 +363,15 @@ def test_a_load_that_is_missed_is_not_called_solved():
 
 
 def test_a_vertical_force_that_is_jumped_over_is_not_called_solved():
-    """At the middle of a fresh flat under 1 kN the force jumps from 949 to 1128 N. This was an error."""
+    """At the middle of a fresh flat under 1 kN the force jumps from 949 to 1128 N. This was an error.
+
+    The search ends before its bracket has closed around the jump.
+    """
     wheel = WheelSurface.constant(profile.s1002(), Flat(0.06, 0.46, shape="chord"))
     pair = WheelRailPair(SurfacePair(wheel, profile.rail_60e1(inclination=1 / 40)))
     found = pair.solve(Pose(), Velocity(10.0), vertical=1e3, friction=0.3, rotation=0.04)
     assert found.status is Status.NOT_CONVERGED
-    assert found.force[2] == pytest.approx(-949.0, abs=1.0)
+    assert 940.0 < -found.force[2] < 950.0
 
 
 def test_an_axle_that_is_displaced_forwards_stands_further_along_the_rail():

@@ -18,6 +18,7 @@ _COINCIDENT = 1e-9  # [m] distance below which points coincide
 _FLAT = 1e-300  # square of a cosine in place of one that does not exist
 _GAUSS_T = 0.5 * math.sqrt(0.6)  # outer nodes of three-point Gauss, from the middle of an interval of length 1
 _USUAL_RADIUS = 0.46  # [m] of a tape circle, for which the lengths of the search are given
+_BLOCK = 16  # nodes that are looked at together
 _TRANSITION = 0.25  # of the limits of distance and angle: width of the transition from one plane to two
 
 
@@ -188,6 +189,15 @@ def _add_moments(line: Array, j: int, z: float, t0: float, t1: float, lobe: Reco
         lobe[k].sine += weight * slope * cosine
 
 
+@kernel
+def _are_apart(gap: Array, opening: Array, z: float) -> bool:
+    """Return whether the gap is at least z at all nodes, and no interval between two of them has its least gap inside."""
+    near = 0
+    for i in range(gap.size - 1):
+        near |= (gap[i] < z) | (gap[i + 1] < z) | ((opening[i] < 0.0) & (opening[i + 1] > 0.0))
+    return near == 0
+
+
 @entry
 def lobes(line: Matrix, start: int, end: int, z: float, lobe: Lobes) -> int:
     """Fill `lobe` with the runs of y in which the wheel, lowered by z, lies inside the rail. Return their number.
@@ -199,8 +209,11 @@ def lobes(line: Matrix, start: int, end: int, z: float, lobe: Lobes) -> int:
     """
     k, inside = -1, False
     gap, opening = line[Curve.GAP, start:end], line[Curve.OPENING, start:end]
+    apart = False
     for i in range(end - start - 1):
-        if gap[i] >= z and gap[i + 1] >= z and not opening[i] < 0.0 < opening[i + 1]:  # nearly everywhere
+        if i % _BLOCK == 0:
+            apart = _are_apart(gap[i : i + _BLOCK + 1], opening[i : i + _BLOCK + 1], z)
+        if apart or (gap[i] >= z and gap[i + 1] >= z and not opening[i] < 0.0 < opening[i + 1]):  # nearly everywhere
             continue
         j = start + i
         g0, g1 = line[Curve.GAP, j] - z, line[Curve.GAP, j + 1] - z

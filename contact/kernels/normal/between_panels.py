@@ -82,7 +82,7 @@ def assemble_others(n_panels, own, unit):
     for q in range(n_panels):
         for j in range(q * n, q * n + n):
             a, row = vectors[Vector.A, j], matrix[j]
-            scale, ln_a, inverse = a * unit, math.log(a), 1.0 / a
+            scale, ln_a, inverse = a * unit, vectors[Vector.LN_LENGTH, j], 1.0 / a
             for p in range(n_panels):
                 for m in range(PROBES if p != q else 0):
                     at = logs[p * PROBES + m]
@@ -100,13 +100,13 @@ def assemble_others(n_panels, own, unit):
 def add_others(p, n_panels, own, skewed):
     """Add to Vector.U the displacement at the ends of panel p's strips by the other panels, the mean of both ends.
 
-    The rows Q1, Q2 and R of the vectors hold ln a, 1/a and p0·a/(pi E*). Both ends differ if strips are `skewed`. Then
+    The rows Q2 and R of the vectors hold 1/a and p0·a/(pi E*). Both ends differ if strips are `skewed`. Then
     Vector.DIFFERENCE gets their difference.
     """
     vectors, logs, spread, plane = own.space.vectors, own.space.logs, own.rule.spread, own.tables.plane
     n = spread.shape[1]
     U, difference = vectors[Vector.U, p * n : p * n + n], vectors[Vector.DIFFERENCE, p * n : p * n + n]
-    logs_a, inverses = vectors[Vector.Q1], vectors[Vector.Q2]
+    logs_a, inverses = vectors[Vector.LN_LENGTH], vectors[Vector.Q2]
     forces, loci = vectors[Vector.R], vectors[Vector.XC]
     pairs = vectors[Vector.PAIRS : Vector.PAIRS + len(Pair)]
     for m in range(PROBES):

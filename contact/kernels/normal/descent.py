@@ -84,7 +84,7 @@ def _residual(low, high, scratch, B, A, centre, plane, out):
     for i in range(n):
         p[i] = q[i] = -(g0[i] + B * (y[i] * y[i] + h[i] * h[i] / 3.0 - y0[i]))
         for j in range(n):
-            lu[i, j] = _influence(i, j, 0.0, y, h, a, centre, plane)
+            lu[j, i] = _influence(i, j, 0.0, y, h, a, centre, plane)
     eliminate(lu, n, p, q)
     for i in range(1, n - 1):
         u = 0.0
@@ -152,7 +152,7 @@ def _fill_layer(aspect, scratch, centre, plane, layer):
         for i in range(n):
             one[i], other[i] = 0.0, 0.0
             for j in range(n):
-                lu[i, j] = jacobian[i, j]
+                lu[j, i] = jacobian[i, j]
         one[k], other[min(k + 1, n - 1)] = 1.0, 1.0
         eliminate(lu, n, one, other)
         for i in range(n):
@@ -205,7 +205,7 @@ def _fill_offset_layer(aspect, scratch, centre, plane, layer):
         for i in range(n - 2):
             one[i], other[i] = 0.0, 0.0
             for j in range(n - 2):
-                lu[i, j] = -jacobian[i + 1, j + 1]
+                lu[j, i] = -jacobian[i + 1, j + 1]
         one[k], other[min(k + 1, n - 3)] = 1.0, 1.0
         eliminate(lu, n - 2, one, other)
         for i in range(n - 2):

@@ -15,6 +15,8 @@ from contact.kernels.rows import Sample, Strip, Vector
 _WITHIN = 0.95
 #: Overlap outside the panels, over the approach, that counts as missed contact: early, and at convergence.
 EARLY_GHOST, GHOST = 2e-2, 1e-3
+#: Logarithm of the half length of an end strip over that of its neighbour.
+_LN_END = math.log(END_LENGTH)
 #: Share of the overlap's width that a new panel leaves free at either end. An elastic patch is narrower than the overlap.
 OPENED = 0.15
 
@@ -113,7 +115,7 @@ def place_middles(vectors, n, n_panels, delta):
 
 @entry
 def half_lengths(vectors: Matrix, n: int, n_panels: int, delta: float) -> None:
-    """Fill half lengths a from ln a, at the approach `delta` above first touch [m].
+    """Fill half lengths a and their logarithms, LN_LENGTH, from ln a, at the approach `delta` above first touch [m].
 
     Strips at the ends follow the square root of the edge. No strip may collapse beside its neighbours. None may be longer
     than the virtual penetration, A a² = delta - g: the pressure displaces its ends outwards. Without this bound the length
@@ -130,12 +132,15 @@ def half_lengths(vectors: Matrix, n: int, n_panels: int, delta: float) -> None:
         vectors[Vector.FLOOR, first] = vectors[Vector.FLOOR, first + n - 1] = 0.0
         vectors[Vector.A, first] = END_LENGTH * vectors[Vector.A, first + 1]
         vectors[Vector.A, first + n - 1] = END_LENGTH * vectors[Vector.A, first + n - 2]
+        vectors[Vector.LN_LENGTH, first] = _LN_END + vectors[Vector.LN_A, first + 1]
+        vectors[Vector.LN_LENGTH, first + n - 1] = _LN_END + vectors[Vector.LN_A, first + n - 2]
         for i in range(first + 1, first + n - 1):
             if vectors[Vector.ACTIVE, i] != 0.0:
                 floor = 0.3 * max(vectors[Vector.A, i - 1], vectors[Vector.A, i + 1])
                 vectors[Vector.FLOOR, i] = floor
                 if vectors[Vector.A, i] <= floor:
                     vectors[Vector.A, i], vectors[Vector.LN_A, i] = floor, math.log(floor)
+            vectors[Vector.LN_LENGTH, i] = vectors[Vector.LN_A, i]
 
 
 @kernel
@@ -196,7 +201,7 @@ def _summarise(n: int, n_panels: int, vectors: Matrix, unit: float) -> None:
         for j in range(first, first + n):
             a, h, at = vectors[Vector.A, j], vectors[Vector.HALF, j], vectors[Vector.Y, j]
             own, spread = math.pi * unit * vectors[Vector.P, j] * a * h, 0.25 * a * a + h * h / 3.0
-            vectors[Vector.REACH, j], vectors[Vector.SPREAD, j], vectors[Vector.LN_LENGTH, j] = own, spread, math.log(a)
+            vectors[Vector.REACH, j], vectors[Vector.SPREAD, j] = own, spread
             load, moment, square = load + own, moment + own * at, square + own * (at * at + spread)
         middle = moment / load if load > 0.0 else 0.0
         vectors[Vector.REACH_OF_PANEL, first], vectors[Vector.MIDDLE_OF_PANEL, first] = load, middle
@@ -219,10 +224,15 @@ def _is_overlapped(
         u += vectors[Vector.REACH_OF_PANEL, first] / math.sqrt(away * away + vectors[Vector.SPREAD_OF_PANEL, first])
     if allowed <= u:
         return False
+    middles, reaches, spreads, by_strip = (
+        vectors[Vector.Y], vectors[Vector.REACH], vectors[Vector.SPREAD], vectors[Vector.Q1],
+    )  # fmt: skip
+    for j in range(n * n_panels):  # each by itself, so that the compiler takes several at once
+        away = at - middles[j]
+        by_strip[j] = reaches[j] / math.sqrt(away * away + spreads[j])
     u = 0.0
     for j in range(n * n_panels):
-        away = at - vectors[Vector.Y, j]
-        u += vectors[Vector.REACH, j] / math.sqrt(away * away + vectors[Vector.SPREAD, j])
+        u += by_strip[j]
     return allowed > u and allowed > displacement_outside(at, n, n_panels, vectors, centre, unit)
 
 

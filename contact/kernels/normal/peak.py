@@ -108,7 +108,7 @@ def _top_of_parts(sep, i, n, unit, own):
         s = i - 1 + c // _PARTS
         half, a = 0.5 * strips[Strip.DY, s] / _PARTS, _half_length(min(max(s, before), after), at[c], strips)
         for r in range(m):
-            lu[r, c] = unit * _influence(at[r], at[c], half, a, centre)
+            lu[c, r] = unit * _influence(at[r], at[c], half, a, centre)
     eliminate(lu, m, pressures, unused)
     best = _PARTS - 1
     for r in range(_PARTS, 2 * _PARTS + 1):

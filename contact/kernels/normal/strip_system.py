@@ -24,10 +24,10 @@ def _fill_off_line(first, n, half, own, unit):
     cosine_logs, vectors, matrix = own.rule.cosine_logs, own.space.vectors, own.space.matrix
     centre, plane = own.tables.centre, own.tables.plane
     tabulated = own.rule.columns.shape[1] == n
-    loci = vectors[Vector.XC, first : first + n]
+    loci, ln_half = vectors[Vector.XC, first : first + n], math.log(half)
     for k in range(n):
         a, row = vectors[Vector.A, first + k], matrix[first + k, first : first + n]
-        ln_a, scale, inverse, locus = math.log(a / half), a * unit, 1.0 / a, loci[k]
+        ln_a, scale, inverse, locus = vectors[Vector.LN_LENGTH, first + k] - ln_half, a * unit, 1.0 / a, loci[k]
         for i in range(n):
             X = abs(loci[i] - locus) * inverse
             left, right = cosine_logs[i, k] - ln_a, cosine_logs[i, k + 1] - ln_a
@@ -55,9 +55,10 @@ def assemble(panels, n_panels, own, skewed, unit):
     tabulated = columns.shape[1] == n
     for p in range(n_panels):
         first, half = p * n, 0.5 * (panels[2 * p + 1] - panels[2 * p])
+        ln_half = math.log(half)
         for k in range(n if tabulated else 0):
-            a = vectors[Vector.A, first + k]
-            column(columns, k, math.log(a / half), a * unit, matrix[first + k, first : first + n])
+            ln_a, scale = vectors[Vector.LN_LENGTH, first + k] - ln_half, vectors[Vector.A, first + k] * unit
+            column(columns, k, ln_a, scale, matrix[first + k, first : first + n])
         if skewed or not tabulated:
             _fill_off_line(first, n, half, own, unit)
     if n_panels > 1:
@@ -73,14 +74,14 @@ def _add_panel(first, n, logs, ln_unit, skewed, vectors, plane):
     difference.
     """
     last = first + n
-    logs_a, inverses = vectors[Vector.Q1, first:last], vectors[Vector.Q2, first:last]
+    logs_a, inverses = vectors[Vector.LN_LENGTH, first:last], vectors[Vector.Q2, first:last]
     forces, loci = vectors[Vector.R, first:last], vectors[Vector.XC, first:last]
     pairs = vectors[Vector.PAIRS : Vector.PAIRS + len(Pair)]
     for k in range(1, n - 1):
         i = first + k
         if vectors[Vector.P, i] == 0.0:
             continue
-        a, ln_a, x, at = vectors[Vector.A, i], vectors[Vector.Q1, i], vectors[Vector.XC, i], logs[k]
+        a, ln_a, x, at = vectors[Vector.A, i], logs_a[k], vectors[Vector.XC, i], logs[k]
         u, trailing = 0.0, 0.0
         for end in range(2 if skewed else 1):
             for m in range(n):
@@ -104,7 +105,6 @@ def edge_displacements(panels, n_panels, own, skewed, unit):
     cosine_logs, vectors, plane = own.rule.cosine_logs, own.space.vectors, own.tables.plane
     n = cosine_logs.shape[0]
     for j in range(n * n_panels):
-        vectors[Vector.Q1, j] = math.log(vectors[Vector.A, j])
         vectors[Vector.Q2, j] = 1.0 / vectors[Vector.A, j]
         vectors[Vector.R, j] = vectors[Vector.P, j] * vectors[Vector.A, j] * unit
         vectors[Vector.U, j] = vectors[Vector.DIFFERENCE, j] = 0.0
@@ -159,7 +159,7 @@ def solve_active(n, n_panels, space, by_load, amount):
             i = int(vectors[Vector.INDEX, r])
             vectors[Vector.Q1, r], vectors[Vector.Q2, r] = 1.0, -vectors[Vector.GAP, i]
             for c in range(m):
-                lu[r, c] = matrix[c if m == total else int(vectors[Vector.INDEX, c]), i]
+                lu[r, c] = matrix[i, c if m == total else int(vectors[Vector.INDEX, c])]
         eliminate(lu, m, vectors[Vector.Q1], vectors[Vector.Q2])
         stiffness, offset = 0.0, 0.0
         for r in range(m):
