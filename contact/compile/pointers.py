@@ -6,13 +6,9 @@ from numba import types
 from numba.core.errors import TypingError
 from numba.extending import intrinsic
 
-from contact.core import arranging
-
 Doubles = types.CPointer(types.float64)
 #: Type of an argument or of a result, as tables of entries name it → that of numba.
 TYPES = {"i64": types.int64, "f64": types.float64, "ptr": Doubles}
-#: Functions of a component lay arrays.
-compiled = arranging
 
 
 def _start_of(dtype):

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from contact.core import COMPILING
-from contact.core import arranging as compiled
+from contact.core import COMPILING, arranging
 from contact.kernels import memory, quadrature
 from contact.kernels.arrays import Size, Tables, Workspace
 from contact.kernels.kalker import N_TABLE, fill_table
@@ -17,14 +16,14 @@ if COMPILING:
     from numba import carray
 
 
-@compiled
+@arranging
 def size_of(sizes):
     """Return the `Size` in the first four numbers of `sizes`: interacting, strips, elements, samples."""
     s = carray(sizes, (4,))
     return Size(int(s[1]), int(s[2]), int(s[3]), int(s[0]), 1)
 
 
-@compiled
+@arranging
 def lay_out(work, end, kept, size, constants):
     """Lay out a workspace in `work` from index `end` on. Return it, the index of its strips, and the index where it ends.
 
@@ -44,28 +43,28 @@ def lay_out(work, end, kept, size, constants):
     return Workspace(rule, tables, space, strips, fields), at_strips, end
 
 
-@compiled
+@arranging
 def copy(source, to):
     """Copy a vector. An assignment of arrays would check their shapes and raise an exception."""
     for i in range(to.size):
         to[i] = source[i]
 
 
-@compiled
+@arranging
 def copy_rows(source, to):
     """Copy a matrix."""
     for i in range(to.shape[0]):
         copy(source[i], to[i])
 
 
-@compiled
+@arranging
 def forget_forged(kept):
     """Forget a warm start that says more panels than there can be, which a host can write there."""
     if kept.size > 0 and not 0.0 <= kept[0] <= MAX_PATCHES:
         kept[0] = 0.0
 
 
-@compiled
+@arranging
 def fill(own, poisson_ratio, constants):
     """Fill the arrays that depend only on resolution and material. `constants` are pointers to the arrays of `tables.data`."""
     rule, tables = own.rule, own.tables

@@ -11,10 +11,10 @@ from __future__ import annotations
 import math
 from typing import Any, NamedTuple
 
-from contact.core import COMPILING, group
+from contact.core import COMPILING, arranging, group
 from contact.kernels import block, memory, quadrature
 from contact.kernels.damage.deposit import arc_length
-from contact.kernels.entries.layout import compiled, copy, copy_rows, fill, forget_forged, lay_out, size_of
+from contact.kernels.entries.layout import copy, copy_rows, fill, forget_forged, lay_out, size_of
 from contact.kernels.flexible import solve_flexible
 from contact.kernels.geometry.prepare import facing, rail_origin, take_nodes
 from contact.kernels.pair import solve_patch
@@ -48,7 +48,7 @@ class Start(NamedTuple):
     bins: Any
 
 
-@compiled
+@arranging
 def lay_start(work, end, piece, n_bins):
     """Lay out `Start` from index `end` on. Return it, the index of the kept bins and the new end."""
     kept, end = block.vector(work, end, memory.pair_memory_size(piece))
@@ -59,29 +59,58 @@ def lay_start(work, end, piece, n_bins):
     return Start(kept, trial, spare, kept_bins, bins), at_bins, end
 
 
-@compiled
+@arranging
+def lay_bench(work, end, profiles, facing, size, kept, bins, constants):
+    """Lay out the bench from index `end` on. Return it, the index of the strips and the new end.
+
+    `profiles` are the rows of wheel and rail, `facing` how many nodes of them can touch, `kept` is the warm start.
+    """
+    search, end = memory.lay_search(work, end, facing[0], facing[1], 0, size.n_samples)
+    own, at_strips, end = lay_out(work, end, kept[1 : 1 + memory.memory_size(size)], size, constants)
+    ledger, end = memory.lay_ledger(work, end, profiles[0], profiles[1], bins, size.n_strips)
+    bench, end = memory.lay_bench(work, end, size, kept, search, own, ledger)
+    return bench, at_strips, end
+
+
+@arranging
+def lay_derivatives(work, end, size, bench):
+    """Lay out what the derivatives of `bench` need. Return it and the new end."""
+    near, end = memory.lay_neighbour(work, end, size, bench)
+    return memory.lay_aside(work, end, size, near)
+
+
+@arranging
 def _lay(sizes, work, constants):
     """Return the start, the bench, the indices of the strips and of the kept bins, and the size in numbers."""
     size, s = size_of(sizes), carray(sizes, (9,))
-    n_wheel, n_rail, n_bins, facing_wheel, facing_rail = int(s[4]), int(s[5]), int(s[6]), int(s[7]), int(s[8])
-    piece = memory.memory_size(size)
-    start, at_bins, end = lay_start(work, 0, piece, n_bins)
-    wheel, end = block.matrix(work, end, N_PROFILE_ROWS, n_wheel)
-    rail, end = block.matrix(work, end, N_PROFILE_ROWS, n_rail)
-    search, end = memory.lay_search(work, end, facing_wheel, facing_rail, 0, size.n_samples)
-    own, at_strips, end = lay_out(work, end, start.trial[1 : 1 + piece], size, constants)
-    ledger, end = memory.lay_ledger(work, end, wheel, rail, start.bins, size.n_strips)
-    bench, end = memory.lay_bench(work, end, size, start.trial, search, own, ledger)
+    start, at_bins, end = lay_start(work, 0, memory.memory_size(size), int(s[6]))
+    wheel, end = block.matrix(work, end, N_PROFILE_ROWS, int(s[4]))
+    rail, end = block.matrix(work, end, N_PROFILE_ROWS, int(s[5]))
+    facing = int(s[7]), int(s[8])
+    bench, at_strips, end = lay_bench(work, end, (wheel, rail), facing, size, start.trial, start.bins, constants)
     return start, bench, at_strips, at_bins, end
 
 
-@compiled
+@arranging
+def fill_profiles(bench):
+    """Copy the parts of the ledger's profiles that can touch to the search, and fill what else follows from both profiles."""
+    search, ledger = bench.search, bench.ledger
+    low, high = facing(ledger.wheel, True)
+    take_nodes(ledger.wheel, low, high, search.wheel)
+    low, high = facing(ledger.rail, False)
+    take_nodes(ledger.rail, low, high, search.rail)
+    quadrature.fill_fejer(search.across.nodes, search.across.weights)
+    arc_length(ledger.wheel, ledger.wheel_arc)
+    arc_length(ledger.rail, ledger.rail_arc)
+
+
+@arranging
 def _copy_bins(source, to):
     copy_rows(source[0], to[0])
     copy_rows(source[1], to[1])
 
 
-@compiled
+@arranging
 def _clear_bins(bins):
     for body in range(bins.shape[0]):
         for row in range(bins.shape[1]):
@@ -89,7 +118,7 @@ def _clear_bins(bins):
                 bins[body, row, i] = 0.0
 
 
-@compiled
+@arranging
 def reset(a):
     """Forget warm starts and bins."""
     a.kept[:] = 0.0
@@ -98,7 +127,7 @@ def reset(a):
     _clear_bins(a.bins)
 
 
-@compiled
+@arranging
 def set_options(motion, y, z, case, parameters, bench):
     """Copy what stays constant to the bench. (y, z) is the place of the rail's origin [m]."""
     motions, _ = block.records(motion, 0, 1, MOTION)
@@ -112,7 +141,7 @@ def set_options(motion, y, z, case, parameters, bench):
     bench.ledger.settings[0].distance = 0.0
 
 
-@compiled
+@arranging
 def solve_from(a, bench, piece, cold, mode, amount, distance, motion, case, rail, offset, total, contacts, deflected):
     """Solve at one instant from the kept start, or with `cold` from nothing. Return the number of patches or `NoAnswer`."""
     copy(a.kept, a.trial)
@@ -139,14 +168,14 @@ def solve_from(a, bench, piece, cold, mode, amount, distance, motion, case, rail
     return code if math.isfinite(a.bins.sum()) else -100
 
 
-@compiled
+@arranging
 def accept(a):
     """Make what the last solution has left the start of the following ones, and keep its bins."""
     copy(a.trial, a.kept)
     _copy_bins(a.bins, a.kept_bins)
 
 
-@compiled
+@arranging
 def solve_again(a, bench, piece, k, result):
     """Solve patch k of the last solution once more, for its strips and fields. Return the number of strips.
 
@@ -161,7 +190,7 @@ def solve_again(a, bench, piece, k, result):
     return n
 
 
-@compiled
+@arranging
 def fill_derivatives(mode, motion, bench, aside, jacobian):
     """Fill `jacobian`, shape (6, 17), for the last solution of `bench`. Return the number of patches or `NoAnswer`."""
     givens, _ = block.records(motion, 0, 1, GIVEN)
@@ -173,13 +202,12 @@ def fill_derivatives(mode, motion, bench, aside, jacobian):
     return code
 
 
-@compiled
+@arranging
 def _lay_all(sizes, work, constants):
     """Return the bench, the arrays for its derivatives and the size in numbers."""
     size = size_of(sizes)
     _, bench, _, _, end = _lay(sizes, work, constants)
-    near, end = memory.lay_neighbour(work, end, size, bench)
-    aside, end = memory.lay_aside(work, end, size, near)
+    aside, end = lay_derivatives(work, end, size, bench)
     return bench, aside, end
 
 
@@ -224,19 +252,13 @@ def pair_init(sizes, work, wheel, rail, motion, case, parameters, gauge, gauge_p
         return 1
     a, bench, _, _, _ = _lay(sizes, work, given.data)
     reset(a)
-    search, ledger = bench.search, bench.ledger
+    ledger = bench.ledger
     copy_rows(whole_wheel, ledger.wheel)
     copy_rows(whole_rail, ledger.rail)
-    low, high = facing(whole_wheel, True)
-    take_nodes(whole_wheel, low, high, search.wheel)
-    low, high = facing(whole_rail, False)
-    take_nodes(whole_rail, low, high, search.rail)
-    quadrature.fill_fejer(search.across.nodes, search.across.weights)
+    fill_profiles(bench)
     set_options(motion, y, z, case, parameters, bench)
     fill(bench.own, bench.case[0].nu, given.data)
     ledger.settings[0].start, ledger.settings[0].width = start / width, width
-    arc_length(ledger.wheel, ledger.wheel_arc)
-    arc_length(ledger.rail, ledger.rail_arc)
     return 0
 
 

@@ -9,11 +9,11 @@ from __future__ import annotations
 
 from typing import Any, NamedTuple
 
-from contact.core import group
+from contact.core import arranging, group
 from contact.kernels import block, memory
 from contact.kernels.arrays import Samples, Workspace
 from contact.kernels.damage.assess import damage_kernel
-from contact.kernels.entries.layout import compiled, copy, fill, forget_forged, lay_out, size_of
+from contact.kernels.entries.layout import copy, fill, forget_forged, lay_out, size_of
 from contact.kernels.given_force import solve_under_force
 from contact.kernels.jacobian import COLUMNS, ROWS, solve_with_jacobian
 from contact.kernels.pipeline import solve_case
@@ -31,7 +31,7 @@ class _Laid(NamedTuple):
     searches: Any
 
 
-@compiled
+@arranging
 def _lay(sizes, work, constants):
     """Return all arrays, the index of the strips, and the total size in numbers."""
     size = size_of(sizes)
@@ -43,7 +43,7 @@ def _lay(sizes, work, constants):
     return _Laid(kept, own, damage_fields, searches), at_strips, end
 
 
-@compiled
+@arranging
 def _start(sizes, work, given):
     """Return all arrays. The next solution starts from the kept start."""
     a, _, _ = _lay(sizes, work, given.data)
@@ -52,7 +52,7 @@ def _start(sizes, work, given):
     return a
 
 
-@compiled
+@arranging
 def _samples(n, y, g, A, x_c, tilt):
     """Return the separation of `n` samples."""
     return Samples(

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from typing import Any
 
+from contact.core import arranging
 from contact.kernels import block
 from contact.kernels.arrays import LoadGrid, PatchFields, PatchStrips
-from contact.kernels.entries.layout import compiled, size_of
+from contact.kernels.entries.layout import size_of
 from contact.kernels.records import MAX_PATCHES, RESULT
 from contact.kernels.rows import Field, Strip
 from contact.kernels.stress.below import N_LOADS, N_STRESSES, stresses_at
@@ -14,7 +15,7 @@ from contact.kernels.stress.load import add_load, place_centres, scale_load
 from contact.kernels.tangential.ellipses import end_of_patch
 
 
-@compiled
+@arranging
 def _grid(nx, ny, x, y, p, qx, qy):
     """Return the load on `ny` × `nx` elements."""
     return LoadGrid(

@@ -10,11 +10,11 @@ from __future__ import annotations
 import math
 from typing import Any
 
-from contact.core import COMPILING
+from contact.core import COMPILING, arranging
 from contact.kernels import block, memory, quadrature
 from contact.kernels.arrays import Sheet
 from contact.kernels.block import ahead
-from contact.kernels.entries.layout import compiled, copy, fill, lay_out, size_of
+from contact.kernels.entries.layout import copy, fill, lay_out, size_of
 from contact.kernels.entries.pair import (
     accept,
     fill_derivatives,
@@ -36,7 +36,7 @@ HEAD = 5
 _CLOSEST, _GREATEST = 1e-7, 1e7
 
 
-@compiled
+@arranging
 def _counts(numbers, n):
     """Return the numbers of slices, paths and points of the deviation of a surface, and whether they fit `n`.
 
@@ -51,7 +51,7 @@ def _counts(numbers, n):
     return slices, paths, points, True
 
 
-@compiled
+@arranging
 def _rises(numbers):
     """Return whether numbers increase by at least `_CLOSEST`."""
     least = math.inf
@@ -60,7 +60,7 @@ def _rises(numbers):
     return least >= _CLOSEST
 
 
-@compiled
+@arranging
 def _are_bounded(numbers):
     """Return whether no number is so large that heights could overflow."""
     greatest = 0.0
@@ -69,7 +69,7 @@ def _are_bounded(numbers):
     return greatest <= _GREATEST
 
 
-@compiled
+@arranging
 def is_sound(numbers, n):
     """Return whether slices and deviations are in order, and every slice has a run of paths."""
     slices, paths, points, fit = _counts(numbers, n)
@@ -84,7 +84,7 @@ def is_sound(numbers, n):
     return period == 0.0 or abs(period - length) <= 1e-9 * length
 
 
-@compiled
+@arranging
 def lay_surface(work, end, numbers, n):
     """Return the surface in `numbers`, with its own `period` in `work`, and the new end."""
     slices, paths, points, _ = _counts(numbers, n)
@@ -93,7 +93,7 @@ def lay_surface(work, end, numbers, n):
     return Sheet(sheet.u, sheet.nodes, sheet.runs, period, sheet.deviation), end
 
 
-@compiled
+@arranging
 def lay_bench(work, end, wheel, n_wheel, rail, n_rail, size, kept, constants):
     """Lay out the bench of two surfaces from index `end` on. Return it, the index of the strips and the new end."""
     of_wheel, end = lay_surface(work, end, wheel, n_wheel)
@@ -108,14 +108,22 @@ def lay_bench(work, end, wheel, n_wheel, rail, n_rail, size, kept, constants):
     return bench, at_strips, end
 
 
-@compiled
+@arranging
+def lay_derivatives(work, end, size, bench):
+    """Lay out what the derivatives of `bench` need. Return it and the new end."""
+    search, end = memory.lay_surface_search(work, end, bench.search.wheel, bench.search.rail, size.n_samples)
+    near, end = memory.lay_beside(work, end, search, bench)
+    return memory.lay_aside(work, end, size, near)
+
+
+@arranging
 def place_of(numbers):
     """Return the place (y, z) of the origin of a rail's surface [m]."""
     head = carray(numbers, (HEAD,))
     return head[3], head[4]
 
 
-@compiled
+@arranging
 def periods_of(numbers, n):
     """Return the period of a surface and the middle of its full turn."""
     slices, paths, points, _ = _counts(numbers, n)
@@ -123,7 +131,7 @@ def periods_of(numbers, n):
     return sheet.period[0], sheet.period[1]
 
 
-@compiled
+@arranging
 def prepare_search(wheel, n_wheel, search):
     """Fill the periods and the quadrature of a search on surfaces, which has not searched yet."""
     search.wheel.period[0], search.wheel.period[1] = periods_of(wheel, n_wheel)
@@ -132,7 +140,7 @@ def prepare_search(wheel, n_wheel, search):
     search.motion[1].radius = 0.0
 
 
-@compiled
+@arranging
 def _lay(sizes, wheel, rail, work, constants):
     """Return the start, the bench, the index of the strips and the size in numbers. `wheel` and `rail` hold the surfaces."""
     size, s = size_of(sizes), carray(sizes, (9,))
@@ -142,20 +150,18 @@ def _lay(sizes, wheel, rail, work, constants):
     return start, bench, at_strips, end
 
 
-@compiled
+@arranging
 def _laid(sizes, work, constants):
     """As `_lay`, after `surfaces_init`."""
     return _lay(sizes, work, ahead(work, int(carray(sizes, (9,))[4])), work, constants)
 
 
-@compiled
+@arranging
 def _lay_all(sizes, wheel, rail, work, constants):
     """Return the bench, the arrays for its derivatives and the size in numbers. `wheel` and `rail` hold the surfaces."""
     size = size_of(sizes)
     _, bench, _, end = _lay(sizes, wheel, rail, work, constants)
-    search, end = memory.lay_surface_search(work, end, bench.search.wheel, bench.search.rail, size.n_samples)
-    near, end = memory.lay_beside(work, end, search, bench)
-    aside, end = memory.lay_aside(work, end, size, near)
+    aside, end = lay_derivatives(work, end, size, bench)
     return bench, aside, end
 
 

@@ -14,8 +14,8 @@ from contact.core import arranging
 from contact.kernels import block, memory
 from contact.kernels.block import ahead
 from contact.kernels.entries.layout import fill
-from contact.kernels.entries.surfaces import is_sound, lay_bench, place_of, prepare_search
-from ..tables.wheel_rail_surfaces import FRAME, table
+from contact.kernels.entries.surfaces import is_sound, lay_bench, lay_derivatives, place_of, prepare_search
+from ..tables.wheel_rail_surfaces import table
 from ..variables import Table
 from . import pair_parts
 from .components import Failure
@@ -23,7 +23,6 @@ from .pair_parts import sizer
 from .wheel_rail_pair import DERIVED
 from .wires import references
 
-_TILTED = FRAME.number("Tilted")
 _STEP_ALONG, _STEP_ANGLE = 1e-6, 2e-6  # [m], [rad] for difference quotients
 
 
@@ -41,25 +40,9 @@ def _lay(work, given, size):
     wheel, n_wheel, rail, n_rail = _found(given.resources)
     kept, end = block.vector(work, 0, memory.pair_memory_size(memory.memory_size(size)))
     bench, _, end = lay_bench(work, end, wheel, n_wheel, rail, n_rail, size, kept, given.data)
-    search, end = memory.lay_surface_search(work, end, bench.search.wheel, bench.search.rail, size.n_samples)
-    near, end = memory.lay_beside(work, end, search, bench)
-    aside, end = memory.lay_aside(work, end, size, near)
+    aside, end = lay_derivatives(work, end, size, bench)
     derived, total = block.matrix(work, end, *DERIVED)
     return bench, aside, (derived, end), total
-
-
-def _parameter_setter(table: Table) -> Callable[..., Any]:
-    """Return a compiled function that copies the parameters to the bench."""
-    at, set_shared = references(table), pair_parts.parameter_setter(table)
-
-    @arranging
-    def set_parameters(v, origin_y, origin_z, bench):
-        set_shared(v, origin_y, origin_z, bench)
-        motion = bench.search.motion[0]
-        motion.reach, motion.tilted = v[at.surfaces_reach], 1 if v[at.surfaces_frame] == _TILTED else 0
-        bench.ledger.settings[0].distance = 0.0
-
-    return set_parameters
 
 
 def _differ(table: Table) -> Callable[..., Any]:
@@ -81,7 +64,7 @@ def entries() -> dict[str, Callable[..., Any]]:
     """Return the functions of this kind (`kinds`)."""
     rows = table()
     at, n_values = references(rows), len(rows.scalars)
-    set_parameters, report, difference = _parameter_setter(rows), pair_parts.reporter(rows), _differ(rows)
+    set_parameters, report, difference = pair_parts.parameter_setter(rows), pair_parts.reporter(rows), _differ(rows)
     size, solve, derive = sizer(rows), pair_parts.step_solver(rows), pair_parts.deriver(rows)
 
     def model_memory(values, given):
@@ -101,6 +84,7 @@ def entries() -> dict[str, Callable[..., Any]]:
         fill(bench.own, v[at.material_poisson_ratio], given.data)
         y, z = place_of(rail)
         set_parameters(v, y, z, bench)
+        bench.ledger.settings[0].distance = 0.0
         prepare_search(wheel, n_wheel, bench.search)
         prepare_search(wheel, n_wheel, aside.bench.search)
         return 0
