@@ -14,7 +14,7 @@ from contact.damage.pearce_sherratt import PearceSherratt
 from contact.damage.usfd import Usfd
 from contact.errors import ContactError, only_with_fields, require_number
 from contact.inputs.material import Material
-from contact.inputs.options import RADIUS
+from contact.inputs.options import MEMBERS, RADIUS
 from contact.kernels.damage.assess import damage_kernel
 from contact.kernels.records import CASE, DAMAGE, DAMAGE_PARAMETERS, RESULT
 from contact.kernels.rows import DamageField, Field, Strip
@@ -60,7 +60,7 @@ class DamageParameters:
     def __post_init__(self) -> None:
         if self.wear_law not in WEAR_LAWS:
             raise ContactError(f"wear_law = {self.wear_law!r} is unknown; allowed: {', '.join(WEAR_LAWS)}")
-        require_number("rail_wear", self.rail_wear, 0.0, 1e3)
+        MEMBERS["damage_parameters"]["rail_wear"].require("rail_wear", self.rail_wear)
 
     def record(self, material: Material, wheel_radius: float, speed: float) -> np.record:
         """Return the constants as the record DAMAGE_PARAMETERS of `contact.kernels.records`.
@@ -211,6 +211,7 @@ class Assessed(NamedTuple):
     constants: np.record
     damage: np.record
     damage_fields: Array
+    result: np.record
 
 
 def assess(
@@ -221,7 +222,7 @@ def assess(
     damage, damage_fields = np.zeros(1, DAMAGE)[0], np.zeros((len(DamageField), *solution.p.shape))
     constants = (parameters or DamageParameters()).record(solution.material, wheel_radius, solution.speed)
     damage_kernel(strips, strips.shape[1], fields, case, result, constants, damage_fields, damage)
-    return Assessed(strips, fields, constants, damage, damage_fields)
+    return Assessed(strips, fields, constants, damage, damage_fields, result)
 
 
 def _arrays(solution: Solution) -> tuple[Array, Array, np.record, np.record]:
@@ -245,6 +246,7 @@ def _arrays(solution: Solution) -> tuple[Array, Array, np.record, np.record]:
     case.tangential, case.tangential_family = method.id, method.family
     case.vx, case.vy, case.phi = creepage.longitudinal, creepage.lateral, creepage.spin
     result.Fx, result.Fy, result.Mz, result.N = solution.Fx, solution.Fy, solution.Mz, solution.N
-    result.pmax, result.area = solution.max_pressure, solution.area
+    result.pmax, result.area, result.slip_area = solution.max_pressure, solution.area, solution.slip_area
+    result.status = solution.status
     result.power, result.pressure_y = solution.power_per_metre, solution.pressure_y
     return strips, fields, case, result

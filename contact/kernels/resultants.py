@@ -2,7 +2,8 @@
 
 import math
 
-from contact.core import kernel
+from contact.core import entry, kernel
+from contact.kernels.arrays import Damage, Result, Total
 from contact.kernels.damage.assess import clear_damage
 from contact.kernels.enumerations import Status
 from contact.kernels.geometry.search import axle
@@ -115,6 +116,12 @@ def add_results(result, damage, share, total):
     total.fatigue_index = damage.fatigue_index if first else max(total.fatigue_index, damage.fatigue_index)
     total.stress_index = damage.stress_index if first else max(total.stress_index, damage.stress_index)
     total.energy_index = damage.energy_index if first else max(total.energy_index, damage.energy_index)
+
+
+@entry
+def add_patch(result: Result, damage: Damage, share: float, total: Total) -> None:
+    """As `add_results`, of a patch that Python solves."""
+    add_results(result, damage, share, total)
 
 
 @kernel

@@ -10,10 +10,12 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from contact.arrays import Array
-from contact.damage import Damage, evaluate
+from contact.damage.assessment import assess
 from contact.geometry.records import Patch, Pose, contact_angle
 from contact.geometry.surfaces import SurfacePatch
 from contact.inputs.creepage import Creepage
+from contact.kernels.records import TOTAL
+from contact.kernels.resultants import add_patch
 from contact.results import PairJacobian, Solution, Status
 from contact.view.notebook import beside, table
 from contact.view.tables import Table, Tabular
@@ -260,7 +262,12 @@ def of_patches(
         moment += np.array([contact.Mx, contact.My, contact.Mz]) @ one.axes
         moment += np.cross(np.array(contact.position) - centre, own)
     Q, Y = -float(force[2]), -float(force[1]) if side == "right" else float(force[1])
-    shares = [one.patch.share for one in found]
+    total = np.zeros(1, TOTAL)[0]
+    total.status = Status.NO_CONTACT
+    for one in found:
+        assessed = assess(one.solution, one.patch.rolling_radius)
+        if one.solution.status is not Status.NO_CONTACT:
+            add_patch(assessed.result, assessed.damage, one.patch.share, total)
     N = sum(contact.N for contact in contacts)
     return PairSolution(
         force=force,
@@ -271,12 +278,12 @@ def of_patches(
         used_friction=sum(c.used_friction * c.N for c in contacts) / N if N > 0.0 else 0.0,
         z=z,
         contacts=tuple(contacts),
-        max_pressure=max((c.max_pressure for c in contacts), default=0.0),
-        area=sum(c.area for c in contacts),
-        slip_area=sum(k * one.solution.slip_area for k, one in zip(shares, found, strict=True)),
-        power_per_metre=sum(k * one.solution.power_per_metre for k, one in zip(shares, found, strict=True)),
-        damage=_damage([evaluate(one.solution, one.patch.rolling_radius) for one in found], shares),
-        status=_status([contact.status for contact in contacts]),
+        max_pressure=float(total.pmax),
+        area=float(total.area),
+        slip_area=float(total.slip_area),
+        power_per_metre=float(total.power),
+        damage=PairDamage(*(float(total[name]) for name in PairDamage._fields)),
+        status=Status(total.status),
         gap_error=max((c.gap_error for c in contacts), default=0.0),
         spin=spin,
         bend=max((one.solution.bend for one in found), default=0.0),
@@ -309,36 +316,3 @@ def _contact(one: Solved) -> Contact:
         patch=patch,
         solution=s,
     )
-
-
-def _damage(of: Sequence[Damage], shares: Sequence[float]) -> PairDamage:
-    """Return the damage of a pair: rates are sums by `shares`, indices and the depth are maxima; 0 without a patch."""
-
-    def total(values: Sequence[float]) -> float:
-        return sum(k * value for k, value in zip(shares, values, strict=True))
-
-    def most(values: Sequence[float]) -> float:
-        return max(values, default=0.0)
-
-    return PairDamage(
-        T_gamma=total([d.T_gamma for d in of]),
-        T_gamma_spin=total([d.T_gamma_spin for d in of]),
-        dissipation=total([d.dissipation for d in of]),
-        pearce_sherratt=total([d.pearce_sherratt for d in of]),
-        burstow=most([d.burstow for d in of]),
-        usfd=most([d.usfd for d in of]),
-        archard_depth=most([d.archard.depth_max for d in of]),
-        archard_volume=total([d.archard.volume for d in of]),
-        fatigue_index=most([d.fatigue_index for d in of]),
-        stress_index=most([d.stress_index.max for d in of]),
-        energy_index=most([d.energy_index.max for d in of]),
-    )
-
-
-def _status(states: Sequence[Status]) -> Status:
-    """Return the status of all patches: the gravest that is not to be trusted, SATURATED if all slip, else OK."""
-    loaded = [state for state in states if state is not Status.NO_CONTACT]
-    if not loaded:
-        return Status.NO_CONTACT
-    gravest = max(loaded)
-    return gravest if gravest > Status.SATURATED or min(loaded) is gravest else Status.OK
