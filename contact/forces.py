@@ -12,10 +12,10 @@ from numpy.typing import ArrayLike, NDArray
 
 from contact.arrays import Array, require_numbers
 from contact.errors import ContactError
-from contact.friction import LARGEST, Friction
-from contact.inputs.creepage import LARGEST_CREEPAGE, Creepage
+from contact.friction import Friction
+from contact.inputs.creepage import Creepage
 from contact.inputs.material import STEEL, Material
-from contact.inputs.options import N_ELEMENTS, N_STRIPS
+from contact.inputs.options import CREEPAGE, FRICTION, N_ELEMENTS, N_STRIPS
 from contact.inputs.plausibility import doubt_alike, doubt_gap, doubt_strips, doubt_values
 from contact.inputs.separation import Separation
 from contact.instance import workspace
@@ -110,10 +110,10 @@ def forces(
     columns: list[NDArray[Any]] = [
         require_numbers("load", load, 0.0) if load is not None else require_numbers("approach", approach),
         *(
-            require_numbers(f"creepage.{name}", value, -LARGEST_CREEPAGE, LARGEST_CREEPAGE)
+            require_numbers(f"creepage.{name}", value, *CREEPAGE.bounds)
             for name, value in zip(_PARTS, creepages, strict=True)
         ),
-        require_numbers("friction", coefficients, 0.0, LARGEST),
+        require_numbers("friction", coefficients, *FRICTION.bounds),
         require_numbers("speed", speed, 0.0),
         index,
     ]

@@ -12,19 +12,24 @@ from numpy.typing import ArrayLike, NDArray
 from contact.arrays import require_numbers
 from contact.errors import ContactError, require_number
 from contact.inputs.material import Thermal
+from contact.inputs.options import HOT_FACTOR, ROOM_TEMPERATURE, SURFACE, TEMPERATURE, TEMPERATURE_RANGE
 from contact.kernels.friction import coefficient, over_profile
 from contact.view.notebook import table
 
-#: Largest allowed coefficient [-]: beyond any application, and squares do not overflow.
-LARGEST = 1e6
-#: Highest allowed temperature [K], above all melting points.
-HOTTEST = 1e5
-#: Default temperature of the bodies [K].
-ROOM_TEMPERATURE = 293.15
 #: Names of the friction laws. Kernels identify a law by its index here.
 LAWS = ("coulomb", "linear", "rational", "rational_square", "exponential")
 #: Slip velocities that a law may depend on. Kernels identify them by their index here.
 VELOCITIES = ("global", "local", "greatest")
+
+#: Numbers of a law besides `static`, with their ranges.
+_NUMBERS = {
+    **{name: SURFACE[name] for name in ("kinetic", "half_speed", "slope", "slope_far", "slope_rate")},
+    **{name: SURFACE[name] for name in ("gauge_factor", "border", "border_width", "k_A", "k_S")},
+    "hot_factor": HOT_FACTOR,
+    "reference_temperature": TEMPERATURE,
+    "temperature_range": TEMPERATURE_RANGE,
+    "background_temperature": TEMPERATURE,
+}
 
 #: Units of the parameters that are not dimensionless, for `Friction._repr_html_`.
 _UNITS = {
@@ -131,26 +136,13 @@ class Friction:
     thermal: Thermal = field(default_factory=Thermal)
 
     def __post_init__(self) -> None:
-        require_number("friction.static", self.static, 0.0, LARGEST)
-        if self.kinetic is not None:
-            require_number("friction.kinetic", self.kinetic, 0.0, LARGEST)
-        require_number("friction.half_speed", self.half_speed, 0.0, open_minimum=True)
-        if self.law not in LAWS:
-            raise ContactError(f"friction.law = {self.law!r} is unknown; allowed: {', '.join(LAWS)}")
-        if self.velocity not in VELOCITIES:
-            raise ContactError(f"friction.velocity = {self.velocity!r} is unknown; allowed: {', '.join(VELOCITIES)}")
-        require_number("friction.slope", self.slope, 0.0, 1.0, open_minimum=True)
-        require_number("friction.slope_far", self.slope_far, 0.0, 1.0)
-        require_number("friction.slope_rate", self.slope_rate, 0.0)
-        require_number("friction.gauge_factor", self.gauge_factor, 0.0, 100.0)
-        require_number("friction.border", self.border)
-        require_number("friction.border_width", self.border_width)
-        require_number("friction.k_A", self.k_A, 0.0, 1.0, open_minimum=True)
-        require_number("friction.k_S", self.k_S, 0.0, 1.0, open_minimum=True)
-        require_number("friction.hot_factor", self.hot_factor, 0.0, 1.0)
-        require_number("friction.reference_temperature", self.reference_temperature, 0.0, HOTTEST)
-        require_number("friction.temperature_range", self.temperature_range, 0.0, HOTTEST, open_minimum=True)
-        require_number("friction.background_temperature", self.background_temperature, 0.0, HOTTEST)
+        SURFACE["mu"].require("friction.static", self.static)
+        for name, member in _NUMBERS.items():
+            if name != "kinetic" or self.kinetic is not None:
+                member.require(f"friction.{name}", getattr(self, name))
+        for name, value, allowed in (("law", self.law, LAWS), ("velocity", self.velocity, VELOCITIES)):
+            if value not in allowed:
+                raise ContactError(f"friction.{name} = {value!r} is unknown; allowed: {', '.join(allowed)}")
 
     def __repr__(self) -> str:
         others = (f"{name}={value!r}" for name, value in self._changed().items())
@@ -234,4 +226,4 @@ class Friction:
 
 def as_friction(friction: object) -> Friction:
     """Return `friction` as a `Friction`; a number becomes a constant coefficient."""
-    return friction if isinstance(friction, Friction) else Friction(require_number("friction", friction, 0.0, LARGEST))
+    return friction if isinstance(friction, Friction) else Friction(SURFACE["mu"].require("friction", friction))

@@ -24,7 +24,7 @@ static const Argument ARGUMENT[] = {
 #define N(name, text, kind, low, high) {text, kind, low, high, 0, 0, 0},
     NUMBERS(N)
 #undef N
-#define M(member, kind, low, high, group, text, type, sized, place) \
+#define M(member, kind, low, high, usual, group, text, type, sized, place) \
     {text #member, kind, low, high, offsetof(type, place member), sized ? sizeof(type) : 0, 1},
     MEMBERS(M)
 #undef M

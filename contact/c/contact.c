@@ -36,16 +36,10 @@ static int check_case(const wr_case *c, const wr_contact_options *o) {
 
 int wr_contact_default(wr_contact_options *o) {
     TRY(aligned(o, A_options));
-    *o = (wr_contact_options){.size = sizeof *o,
-                              .normal = WR_DEFAULT_NORMAL,
-                              .tangential = WR_DEFAULT_TANGENTIAL,
-                              .n_strips = 20,
-                              .n_elements = 20,
-                              .n_samples = 101,
-                              .max_iterations = WR_DEFAULT_ITERATIONS,
-                              .shear_modulus = WR_STEEL_SHEAR_MODULUS,
-                              .poisson_ratio = WR_STEEL_POISSON_RATIO,
-                              .pressure_limit = INFINITY};
+    o->size = sizeof *o;
+#define M(member, kind, low, high, usual, ...) o->member = usual;
+    OF_CONTACT(M, )
+#undef M
     return 0;
 }
 

@@ -18,21 +18,12 @@ static int check_pair(const void *memory) {
 
 int wr_pair_default(wr_pair_options *o) {
     TRY(aligned(o, A_options));
-    *o = (wr_pair_options){.size = sizeof *o,
-                           .side = 1,
-                           .most_patches = WR_MAX_PATCHES,
-                           .wheel_radius = 0.46,
-                           .gauge = 1.435,
-                           .flange_back = 1.36,
-                           .gauge_point = 0.014,
-                           .combine_distance = 8e-3,
-                           .combine_angle = 0.17453292519943295,
-                           .bin_width = 1e-3,
-                           .damage = WR_DAMAGE_DEFAULTS,
-                           .reach = 0.06,
-                           .reference_speed = WR_SLOWEST};
-    TRY(wr_contact_default(&o->patch));
-    o->patch.n_samples = 81;
+    *o = (wr_pair_options){.size = sizeof *o, .damage = WR_DAMAGE_DEFAULTS};
+    o->patch.size = sizeof o->patch;
+#define M(member, kind, low, high, usual, place, ...) o->place member = usual;
+    OF_PATCH(M, patch., )
+    OF_PAIR(M, , )
+#undef M
     return 0;
 }
 

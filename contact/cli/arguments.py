@@ -10,12 +10,12 @@ from contact.cli import options as opt
 from contact.cli.document import in_effect
 from contact.cli.problem import OF_A_POSITION, Pose, Position
 from contact.errors import ContactError, warn
-from contact.friction import ROOM_TEMPERATURE, Friction, as_friction
+from contact.friction import Friction, as_friction
 from contact.geometry import profile
 from contact.halfspace.third_body import ThirdBody
 from contact.inputs.creepage import Creepage
 from contact.inputs.material import STEEL, Material
-from contact.inputs.options import FLANGE_BACK, GAUGE, RADIUS
+from contact.inputs.options import FLANGE_BACK, GAUGE, RADIUS, ROOM_TEMPERATURE
 
 
 @dataclass

@@ -5,6 +5,7 @@ It has the records, the enumerations and the methods of the C interface. A test 
 
 from __future__ import annotations
 
+import math
 import re
 from collections.abc import Iterator
 from enum import IntEnum
@@ -16,11 +17,11 @@ from contact.damage import DamageParameters
 from contact.friction import as_friction
 from contact.geometry.wheelset import TAPE_FROM_FLANGE_BACK
 from contact.inputs.material import STEEL
+from contact.inputs.options import ITERATIONS, MEMBERS, SURFACE, Real, Whole
 from contact.inputs.plausibility import USUAL
 from contact.kernels import records
 from contact.kernels.enumerations import FrictionLaw, Height, LoadKind, SlipVelocity, Status, WearLaw
 from contact.kernels.given_force import LATERAL, LONGITUDINAL
-from contact.kernels.normal.strip_halfspace import MAX_ITERATIONS
 from contact.kernels.records import MOTION
 from contact.kernels.rows import Bin, Field, Strip
 from contact.registry import DEFAULT_NORMAL, DEFAULT_TANGENTIAL, methods
@@ -111,7 +112,7 @@ def _constants() -> str:
         **{f"WR_MOTION_{n.upper()}": motion.index(n) for n in _MOTION_CONSTANTS},
         **{f"WR_STRIP_{Strip(row).name}": int(row) for row in (Strip.Y, Strip.DY, Strip.PATCH, Strip.A, Strip.P0)},
         **{f"WR_FIELD_{row.name}": int(row) for row in Field},
-        "WR_DEFAULT_ITERATIONS": MAX_ITERATIONS,
+        "WR_DEFAULT_ITERATIONS": ITERATIONS.usual,
         "WR_TAPE_FROM_FLANGE_BACK": TAPE_FROM_FLANGE_BACK,
         "WR_STEEL_SHEAR_MODULUS": repr(STEEL.shear_modulus),
         "WR_STEEL_POISSON_RATIO": repr(STEEL.poisson_ratio),
@@ -133,6 +134,84 @@ _MOTION_CONSTANTS = (
     "tilted",
     "slowest",
 )
+
+
+#: Options of the C interface → their members in order: what each is. `MEMBERS` has default and range of most.
+_OPTIONS = {
+    "contact_options": {
+        "normal": "WR_NORMAL_...",
+        "tangential": "WR_TANGENTIAL_...",
+        "n_strips": "per patch",
+        "n_elements": "per strip",
+        "n_samples": "most of a separation, 3 to 100000, default 101; of a pair's patches 5 to 2001, default 81",
+        "max_iterations": "of the strip half space",
+        "conformal": "1: the contact angle varies over the patch",
+        "shear_modulus": "[Pa]",
+        "poisson_ratio": "[-]",
+        "pressure_limit": "[Pa]; 0 or infinity: none",
+    },
+    "pair_options": {
+        "patch": "methods, resolution and material",
+        "side": "1: right, -1: left",
+        "most_patches": "",
+        "wheel_radius": "at the tape circle [m]",
+        "gauge": "[m]",
+        "flange_back": "distance of the flange backs [m]",
+        "gauge_point": "depth below the top of the rail at which the gauge is measured [m]",
+        "combine_distance": "lobes that are nearer than this [m], or",
+        "combine_angle": "whose angles differ by less [rad], share one patch",
+        "n_bins": "bins on each profile in which damage adds up; 0: none",
+        "bin_start": "arc length where the first bin begins [m]",
+        "bin_width": "[m]",
+        "damage": "",
+        "reach": "surfaces: distance before and behind the axle that is searched [m]",
+        "tilted": "surfaces: 1 if the frame of a patch follows the rail's normal in all directions, 0 if it turns about x",
+        "reference_speed": "speed below which creepages refer to it [m/s]",
+    },
+}
+_STRUCTS = {"patch": "wr_contact_options", "damage": "wr_damage_parameters"}
+
+
+def _options(name: str, members: dict[str, str]) -> str:
+    """Return the struct of options. `wr_…_default` sets its size and the defaults."""
+    lines = [f"    int64_t size; /* sizeof(wr_{name}), set by wr_{name.removesuffix('_options')}_default */"]
+    for member, meaning in members.items():
+        limits = MEMBERS[name].get(member)
+        kind = _STRUCTS.get(member) or ("double" if isinstance(limits, Real) else "int64_t")
+        about = "; ".join(filter(None, (meaning, limits and _range_in_words(limits))))
+        lines.append(f"    {kind} {member};" + (f" /* {about} */" if about else ""))
+    return "typedef struct {\n" + "\n".join(lines) + f"\n}} wr_{name};"
+
+
+def _range_in_words(limits: Whole | Real) -> str:
+    if (limits.least, limits.most) == (0, 1) and isinstance(limits, Whole):
+        return ""
+    above = f"above {limits.least:g}" if isinstance(limits, Real) and limits.above else f"from {limits.least:g} on"
+    found = above if math.isinf(limits.most) else f"{limits.least:.15g} to {limits.most:.15g}"
+    return f"{found}, default {limits.usual:.6g}".replace(", default inf", "")
+
+
+def _ranges() -> str:
+    """Return lists of the members that the functions check, each with its range and default."""
+    lists = []
+    of_case = {name: limits for name, limits in MEMBERS["case"].items() if name not in SURFACE}
+    for name, members in {"surface": SURFACE, **MEMBERS, "case": of_case}.items():
+        rows = " \\\n".join(
+            f"    M({member}, {_kind(limits)}, {limits.least!r}, {limits.most!r}, {limits.usual!r}, __VA_ARGS__)"
+            for member, limits in members.items()
+        )
+        lists.append(f"#define WR_{name.upper()}_RANGES(M, ...) \\\n{rows}")
+    return "/* M(member, kind, least, most, default, ...): ranges of the numbers that a caller gives. */\n" + "\n".join(
+        lists
+    )
+
+
+def _kind(limits: Whole | Real) -> str:
+    if isinstance(limits, Whole):
+        return "WHOLE"
+    if limits.above:
+        return "POSITIVE"
+    return "LIMIT" if limits.endless else "REAL"
 
 
 def _damage_defaults() -> str:
@@ -170,7 +249,9 @@ def _doubts() -> str:
 def header() -> str:
     """Return the text of the header."""
     enumerations = "\n\n".join(_enumeration(kind, prefix) for kind, prefix in _ENUMERATIONS.items())
-    structs = "\n\n".join(_record(name, of) for name, of in _RECORDS.items())
+    structs = "\n\n".join(
+        [*(_record(name, of) for name, of in _RECORDS.items()), *(_options(*each) for each in _OPTIONS.items())]
+    )
     text = f"""/* Generated by contact/compile/c_header.py. Do not edit. All units are SI. */
 #ifndef WHEELRAIL_RECORDS_H
 #define WHEELRAIL_RECORDS_H
@@ -188,6 +269,8 @@ def header() -> str:
 {_damage_defaults()}
 
 {_surface_defaults()}
+
+{_ranges()}
 
 {_doubts()}
 

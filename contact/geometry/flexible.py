@@ -2,11 +2,9 @@
 
 from __future__ import annotations
 
-import math
 from dataclasses import astuple, dataclass, fields
 
-from contact.errors import require_number
-from contact.kernels.records import LARGEST_ANGLE
+from contact.inputs.options import MEMBERS
 
 
 @dataclass(frozen=True, slots=True)
@@ -44,8 +42,7 @@ class WheelOffset:
 
     def __post_init__(self) -> None:
         for field in fields(self):
-            limit = LARGEST_ANGLE if field.name in ("roll", "pitch", "yaw") else math.inf
-            require_number(f"offset.{field.name}", getattr(self, field.name), -limit, limit)
+            MEMBERS["wheel_offset"][field.name].require(f"offset.{field.name}", getattr(self, field.name))
 
     def record(self) -> tuple[float, ...]:
         """Return the numbers in the order of the record WHEEL_OFFSET of `contact.kernels.records`."""

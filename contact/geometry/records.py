@@ -7,9 +7,12 @@ from dataclasses import dataclass
 
 from contact.errors import require_number
 from contact.inputs.creepage import Creepage
+from contact.inputs.options import MEMBERS
 from contact.inputs.separation import Separation
-from contact.kernels.records import LARGEST_ANGLE, LARGEST_RAIL_ROLL
 from contact.view.notebook import beside, table
+
+#: Ranges of a motion.
+_GIVEN = MEMBERS["given"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -22,8 +25,8 @@ class Pose:
     yaw: float = 0.0
 
     def __post_init__(self) -> None:
-        for name, limit in (("y", math.inf), ("z", math.inf), ("roll", LARGEST_ANGLE), ("yaw", LARGEST_ANGLE)):
-            require_number(f"pose.{name}", getattr(self, name), -limit, limit)
+        for name in ("y", "z", "roll", "yaw"):
+            _GIVEN[name].require(f"pose.{name}", getattr(self, name))
 
 
 @dataclass(frozen=True, slots=True)
@@ -62,7 +65,7 @@ class Irregularity:
     def __post_init__(self) -> None:
         for name in ("y", "z", "y_rate", "z_rate", "roll_rate"):
             require_number(f"irregularity.{name}", getattr(self, name))
-        require_number("irregularity.roll", self.roll, -LARGEST_RAIL_ROLL, LARGEST_RAIL_ROLL)
+        _GIVEN["rail_roll"].require("irregularity.roll", self.roll)
 
 
 def contact_angle(angle: float, y: float) -> float:

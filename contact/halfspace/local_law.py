@@ -18,8 +18,9 @@ from numpy.typing import NDArray
 
 from contact.arrays import Array, as_array
 from contact.errors import ContactError, require_number
-from contact.friction import LARGEST, Friction, as_friction
+from contact.friction import Friction, as_friction
 from contact.inputs.material import Thermal
+from contact.inputs.options import FRICTION
 
 #: Terms over the slip velocity.
 TERMS = ("linear", "rational", "rational_square", "exponential")
@@ -103,9 +104,9 @@ class LocalLaw:
             if kind not in TERMS:
                 raise ContactError(f"terms: {kind!r} is unknown; allowed: {', '.join(TERMS)}")
         static = self.static
-        if not (np.isfinite(static).all() and (static >= 0.0).all() and (static <= LARGEST).all()):
+        if not (np.isfinite(static).all() and (static >= 0.0).all() and (static <= FRICTION.most).all()):
             raise ContactError(
-                f"the coefficient at rest is {static.min():g} … {static.max():g}; allowed: [0, {LARGEST:g}]"
+                f"the coefficient at rest is {static.min():g} … {static.max():g}; allowed: [0, {FRICTION.most:g}]"
             )
 
     @property

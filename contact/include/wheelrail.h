@@ -63,20 +63,6 @@ WR_API int wr_method_number(const char *kind, const char *name);
 
 /* ---------------------------------------------------------------- one patch, or several in one plane */
 
-typedef struct {
-    int64_t size;           /* sizeof(wr_contact_options), set by wr_contact_default */
-    int64_t normal;         /* WR_NORMAL_... */
-    int64_t tangential;     /* WR_TANGENTIAL_... */
-    int64_t n_strips;       /* per patch, 4 to 1000; default 20 */
-    int64_t n_elements;     /* per strip, 4 to 1000; default 20 */
-    int64_t n_samples;      /* most samples of a separation, 3 to 100000; default 101 */
-    int64_t max_iterations; /* of the strip half space, 1 to 1000 */
-    int64_t conformal;      /* 1: the contact angle varies over the patch */
-    double shear_modulus;   /* [Pa] */
-    double poisson_ratio;   /* 0 to 0.5 */
-    double pressure_limit;  /* [Pa]; 0 or infinity: none */
-} wr_contact_options;
-
 /* Undeformed gap between wheel and rail over the lateral coordinate of the contact plane. */
 typedef struct {
     int64_t n;         /* number of samples, at least 3 */
@@ -155,26 +141,6 @@ WR_API int wr_contact_batch(void *memory, int64_t n_separations, const wr_separa
                             const int64_t *which, const wr_case *cases, wr_result *results, int64_t *failed);
 
 /* ---------------------------------------------------------------- a wheel on a rail */
-
-typedef struct {
-    int64_t size;             /* sizeof(wr_pair_options), set by wr_pair_default */
-    wr_contact_options patch; /* methods, resolution and material; n_samples of each patch, 5 to 2001, default 81 */
-    int64_t side;             /* 1: right, -1: left */
-    int64_t most_patches;     /* 1 to 4 */
-    double wheel_radius;      /* at the tape circle [m], 0.05 to 2 */
-    double gauge;             /* [m], 0.1 to 3 */
-    double flange_back;       /* distance of the flange backs [m], 0.1 to 3 */
-    double gauge_point;       /* depth below the top of the rail at which the gauge is measured [m] */
-    double combine_distance;  /* lobes that are nearer [m] or */
-    double combine_angle;     /* differ by less [rad] share one patch */
-    int64_t n_bins;           /* bins on each profile in which damage adds up; 0: none; at most 100000 */
-    double bin_start;         /* arc length where the first bin begins [m] */
-    double bin_width;         /* [m] */
-    wr_damage_parameters damage;
-    double reach;   /* surfaces: distance before and behind the axle that is searched [m], 0.01 to 0.3 */
-    int64_t tilted; /* surfaces: 1 if the frame of a patch follows the rail's normal in all directions, 0 if it turns about x */
-    double reference_speed; /* speed below which creepages refer to it [m/s], 1e-6 to 10 */
-} wr_pair_options;
 
 /* A profile in the convention of the right side, for either side: y is negative on the gauge side, where the flange lies, and
  * positive on the field side; z points down.  A wheel or a rail that is upside down and a mirrored wheel are refused.

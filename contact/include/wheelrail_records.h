@@ -388,6 +388,40 @@ typedef struct {
 _Static_assert(sizeof(wr_damage_parameters) == 264, "wr_damage_parameters");
 #endif
 
+typedef struct {
+    int64_t size; /* sizeof(wr_contact_options), set by wr_contact_default */
+    int64_t normal; /* WR_NORMAL_... */
+    int64_t tangential; /* WR_TANGENTIAL_... */
+    int64_t n_strips; /* per patch; 4 to 1000, default 20 */
+    int64_t n_elements; /* per strip; 4 to 1000, default 20 */
+    int64_t n_samples; /* most of a separation, 3 to 100000, default 101; of a pair's patches 5 to 2001, default 81 */
+    int64_t max_iterations; /* of the strip half space; 1 to 1000, default 60 */
+    int64_t conformal; /* 1: the contact angle varies over the patch */
+    double shear_modulus; /* [Pa]; above 0, default 8.2e+10 */
+    double poisson_ratio; /* [-]; 0 to 0.5, default 0.28 */
+    double pressure_limit; /* [Pa]; 0 or infinity: none; from 0 on */
+} wr_contact_options;
+
+typedef struct {
+    int64_t size; /* sizeof(wr_pair_options), set by wr_pair_default */
+    wr_contact_options patch; /* methods, resolution and material */
+    int64_t side; /* 1: right, -1: left */
+    int64_t most_patches; /* 1 to 4, default 4 */
+    double wheel_radius; /* at the tape circle [m]; 0.05 to 2, default 0.46 */
+    double gauge; /* [m]; 0.1 to 3, default 1.435 */
+    double flange_back; /* distance of the flange backs [m]; 0.1 to 3, default 1.36 */
+    double gauge_point; /* depth below the top of the rail at which the gauge is measured [m]; above 0, default 0.014 */
+    double combine_distance; /* lobes that are nearer than this [m], or; from 0 on, default 0.008 */
+    double combine_angle; /* whose angles differ by less [rad], share one patch; from 0 on, default 0.174533 */
+    int64_t n_bins; /* bins on each profile in which damage adds up; 0: none; 0 to 100000, default 0 */
+    double bin_start; /* arc length where the first bin begins [m]; -1000000 to 1000000, default 0 */
+    double bin_width; /* [m]; 1e-09 to 1000000, default 0.001 */
+    wr_damage_parameters damage;
+    double reach; /* surfaces: distance before and behind the axle that is searched [m]; 0.01 to 0.3, default 0.06 */
+    int64_t tilted; /* surfaces: 1 if the frame of a patch follows the rail's normal in all directions, 0 if it turns about x */
+    double reference_speed; /* speed below which creepages refer to it [m/s]; 1e-06 to 10, default 0.001 */
+} wr_pair_options;
+
 /* Damage constants of `contact.damage.DamageParameters()` for steel. */
 #define WR_DAMAGE_DEFAULTS { \
     1.0, \
@@ -419,6 +453,111 @@ _Static_assert(sizeof(wr_damage_parameters) == 264, "wr_damage_parameters");
     X(warm, 0.0) \
     X(warm_range, 400.0) \
     X(heating, 2.1226040109865864e-05)
+
+/* M(member, kind, least, most, default, ...): ranges of the numbers that a caller gives. */
+#define WR_SURFACE_RANGES(M, ...) \
+    M(speed, REAL, 0.0, INFINITY, 20.0, __VA_ARGS__) \
+    M(G, POSITIVE, 0.0, INFINITY, 82000000000.0, __VA_ARGS__) \
+    M(nu, REAL, 0.0, 0.5, 0.28, __VA_ARGS__) \
+    M(pressure_limit, LIMIT, 0.0, INFINITY, INFINITY, __VA_ARGS__) \
+    M(max_iterations, WHOLE, 1, 1000, 60, __VA_ARGS__) \
+    M(tolerance, REAL, 0.0, 0.01, 0.0, __VA_ARGS__) \
+    M(mu, REAL, 0.0, 1000000.0, 0.3, __VA_ARGS__) \
+    M(law, WHOLE, 0, 4, 0, __VA_ARGS__) \
+    M(kinetic, REAL, 0.0, 1000000.0, 0.3, __VA_ARGS__) \
+    M(half_speed, POSITIVE, 0.0, INFINITY, 1.0, __VA_ARGS__) \
+    M(velocity, WHOLE, 0, 2, 0, __VA_ARGS__) \
+    M(slope, POSITIVE, 0.0, 1.0, 1.0, __VA_ARGS__) \
+    M(slope_far, REAL, 0.0, 1.0, 1.0, __VA_ARGS__) \
+    M(slope_rate, REAL, 0.0, INFINITY, 1.0, __VA_ARGS__) \
+    M(gauge_factor, REAL, 0.0, 100.0, 1.0, __VA_ARGS__) \
+    M(border, REAL, -INFINITY, INFINITY, 0.0, __VA_ARGS__) \
+    M(border_width, REAL, -INFINITY, INFINITY, 0.005, __VA_ARGS__) \
+    M(k_A, POSITIVE, 0.0, 1.0, 1.0, __VA_ARGS__) \
+    M(k_S, POSITIVE, 0.0, 1.0, 1.0, __VA_ARGS__) \
+    M(drop, REAL, 0.0, 1.0, 0.0, __VA_ARGS__) \
+    M(warm, REAL, -100000.0, 100000.0, 0.0, __VA_ARGS__) \
+    M(warm_range, POSITIVE, 0.0, INFINITY, 400.0, __VA_ARGS__) \
+    M(heating, REAL, 0.0, INFINITY, 0.0, __VA_ARGS__) \
+    M(conformal, WHOLE, 0, 1, 0, __VA_ARGS__)
+#define WR_CASE_RANGES(M, ...) \
+    M(load_kind, WHOLE, 0, 1, 0, __VA_ARGS__) \
+    M(amount, REAL, -INFINITY, INFINITY, 0.0, __VA_ARGS__) \
+    M(vx, REAL, -1000000.0, 1000000.0, 0.0, __VA_ARGS__) \
+    M(vy, REAL, -1000000.0, 1000000.0, 0.0, __VA_ARGS__) \
+    M(phi, REAL, -1000000.0, 1000000.0, 0.0, __VA_ARGS__) \
+    M(rolling, REAL, -1000.0, 1000.0, 0.0, __VA_ARGS__)
+#define WR_CONTACT_OPTIONS_RANGES(M, ...) \
+    M(n_strips, WHOLE, 4, 1000, 20, __VA_ARGS__) \
+    M(n_elements, WHOLE, 4, 1000, 20, __VA_ARGS__) \
+    M(max_iterations, WHOLE, 1, 1000, 60, __VA_ARGS__) \
+    M(conformal, WHOLE, 0, 1, 0, __VA_ARGS__) \
+    M(shear_modulus, POSITIVE, 0.0, INFINITY, 82000000000.0, __VA_ARGS__) \
+    M(poisson_ratio, REAL, 0.0, 0.5, 0.28, __VA_ARGS__) \
+    M(pressure_limit, LIMIT, 0.0, INFINITY, INFINITY, __VA_ARGS__)
+#define WR_PAIR_OPTIONS_RANGES(M, ...) \
+    M(most_patches, WHOLE, 1, 4, 4, __VA_ARGS__) \
+    M(wheel_radius, REAL, 0.05, 2.0, 0.46, __VA_ARGS__) \
+    M(gauge, REAL, 0.1, 3.0, 1.435, __VA_ARGS__) \
+    M(flange_back, REAL, 0.1, 3.0, 1.36, __VA_ARGS__) \
+    M(gauge_point, POSITIVE, 0.0, INFINITY, 0.014, __VA_ARGS__) \
+    M(combine_distance, REAL, 0.0, INFINITY, 0.008, __VA_ARGS__) \
+    M(combine_angle, REAL, 0.0, INFINITY, 0.17453292519943295, __VA_ARGS__) \
+    M(n_bins, WHOLE, 0, 100000, 0, __VA_ARGS__) \
+    M(bin_start, REAL, -1000000.0, 1000000.0, 0.0, __VA_ARGS__) \
+    M(bin_width, REAL, 1e-09, 1000000.0, 0.001, __VA_ARGS__) \
+    M(reach, REAL, 0.01, 0.3, 0.06, __VA_ARGS__) \
+    M(tilted, WHOLE, 0, 1, 0, __VA_ARGS__) \
+    M(reference_speed, REAL, 1e-06, 10.0, 0.001, __VA_ARGS__)
+#define WR_PAIR_INPUT_RANGES(M, ...) \
+    M(height, WHOLE, 0, 3, 2, __VA_ARGS__) \
+    M(amount, REAL, 0.0, INFINITY, 0.0, __VA_ARGS__) \
+    M(distance, REAL, 0.0, INFINITY, 0.0, __VA_ARGS__) \
+    M(station, REAL, -10000000.0, 10000000.0, 0.0, __VA_ARGS__) \
+    M(rotation, REAL, -100000000.0, 100000000.0, 0.0, __VA_ARGS__)
+#define WR_GIVEN_RANGES(M, ...) \
+    M(y, REAL, -INFINITY, INFINITY, 0.0, __VA_ARGS__) \
+    M(z, REAL, -INFINITY, INFINITY, 0.0, __VA_ARGS__) \
+    M(roll, REAL, -0.1, 0.1, 0.0, __VA_ARGS__) \
+    M(yaw, REAL, -0.1, 0.1, 0.0, __VA_ARGS__) \
+    M(vx, REAL, -INFINITY, INFINITY, 0.0, __VA_ARGS__) \
+    M(vy, REAL, -INFINITY, INFINITY, 0.0, __VA_ARGS__) \
+    M(vz, REAL, -INFINITY, INFINITY, 0.0, __VA_ARGS__) \
+    M(roll_rate, REAL, -INFINITY, INFINITY, 0.0, __VA_ARGS__) \
+    M(yaw_rate, REAL, -INFINITY, INFINITY, 0.0, __VA_ARGS__) \
+    M(spin, REAL, -INFINITY, INFINITY, 0.0, __VA_ARGS__) \
+    M(rail_y, REAL, -INFINITY, INFINITY, 0.0, __VA_ARGS__) \
+    M(rail_z, REAL, -INFINITY, INFINITY, 0.0, __VA_ARGS__) \
+    M(rail_roll, REAL, -0.05, 0.05, 0.0, __VA_ARGS__) \
+    M(rail_vy, REAL, -INFINITY, INFINITY, 0.0, __VA_ARGS__) \
+    M(rail_vz, REAL, -INFINITY, INFINITY, 0.0, __VA_ARGS__) \
+    M(rail_roll_rate, REAL, -INFINITY, INFINITY, 0.0, __VA_ARGS__)
+#define WR_WHEEL_OFFSET_RANGES(M, ...) \
+    M(x, REAL, -INFINITY, INFINITY, 0.0, __VA_ARGS__) \
+    M(y, REAL, -INFINITY, INFINITY, 0.0, __VA_ARGS__) \
+    M(z, REAL, -INFINITY, INFINITY, 0.0, __VA_ARGS__) \
+    M(roll, REAL, -0.1, 0.1, 0.0, __VA_ARGS__) \
+    M(pitch, REAL, -0.1, 0.1, 0.0, __VA_ARGS__) \
+    M(yaw, REAL, -0.1, 0.1, 0.0, __VA_ARGS__) \
+    M(x_rate, REAL, -INFINITY, INFINITY, 0.0, __VA_ARGS__) \
+    M(y_rate, REAL, -INFINITY, INFINITY, 0.0, __VA_ARGS__) \
+    M(z_rate, REAL, -INFINITY, INFINITY, 0.0, __VA_ARGS__) \
+    M(roll_rate, REAL, -INFINITY, INFINITY, 0.0, __VA_ARGS__) \
+    M(pitch_rate, REAL, -INFINITY, INFINITY, 0.0, __VA_ARGS__) \
+    M(yaw_rate, REAL, -INFINITY, INFINITY, 0.0, __VA_ARGS__)
+#define WR_ELASTIC_RAIL_RANGES(M, ...) \
+    M(ky, REAL, 0.0, INFINITY, 0.0, __VA_ARGS__) \
+    M(kz, REAL, 0.0, INFINITY, 0.0, __VA_ARGS__) \
+    M(preload_y, REAL, -INFINITY, INFINITY, 0.0, __VA_ARGS__) \
+    M(preload_z, REAL, -INFINITY, INFINITY, 0.0, __VA_ARGS__)
+#define WR_DAMAGE_PARAMETERS_RANGES(M, ...) \
+    M(speed, REAL, 0.0, INFINITY, 1.0, __VA_ARGS__) \
+    M(wheel_radius, POSITIVE, 0.0, INFINITY, 1.0, __VA_ARGS__) \
+    M(hardness, POSITIVE, 0.0, INFINITY, 2700000000.0, __VA_ARGS__) \
+    M(shear_yield, POSITIVE, 0.0, INFINITY, 300000000.0, __VA_ARGS__) \
+    M(rail_wear, REAL, 0.0, 1000.0, 1.0, __VA_ARGS__) \
+    M(with_spin, WHOLE, 0, 1, 0, __VA_ARGS__) \
+    M(wear_law, WHOLE, 0, 3, 0, __VA_ARGS__)
 
 /* Values that no wheel on a rail has, and answers that leave something out. */
 enum {

@@ -4,9 +4,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from contact.errors import ContactError, require_number
-
-LARGEST_CREEPAGE = 1e6  # limit of creepages [-] and spin [1/m]: beyond any application, and squares do not overflow
+from contact.errors import ContactError
+from contact.inputs.options import CREEPAGE
 
 
 @dataclass(frozen=True, slots=True)
@@ -44,7 +43,7 @@ class Creepage:
 
     def __post_init__(self) -> None:
         for name in ("longitudinal", "lateral", "spin"):
-            require_number(f"creepage.{name}", getattr(self, name), -LARGEST_CREEPAGE, LARGEST_CREEPAGE)
+            CREEPAGE.require(f"creepage.{name}", getattr(self, name))
 
 
 def as_creepage(value: object) -> Creepage:

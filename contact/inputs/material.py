@@ -6,6 +6,7 @@ import math
 from dataclasses import dataclass
 
 from contact.errors import require_number
+from contact.inputs.options import HARDNESS, SHEAR_YIELD, SURFACE
 from contact.inputs.plausibility import doubt_value
 
 
@@ -48,16 +49,16 @@ class Material:
 
     shear_modulus: float
     poisson_ratio: float
-    hardness: float = 2.7e9
-    shear_yield: float = 300e6
+    hardness: float = HARDNESS.usual
+    shear_yield: float = SHEAR_YIELD.usual
     pressure_limit: float = math.inf
     coupling: float = 0.0
 
     def __post_init__(self) -> None:
-        require_number("shear_modulus", self.shear_modulus, 0.0, open_minimum=True)
-        require_number("poisson_ratio", self.poisson_ratio, 0.0, 0.5)
-        require_number("hardness", self.hardness, 0.0, open_minimum=True)
-        require_number("shear_yield", self.shear_yield, 0.0, open_minimum=True)
+        SURFACE["G"].require("shear_modulus", self.shear_modulus)
+        SURFACE["nu"].require("poisson_ratio", self.poisson_ratio)
+        HARDNESS.require("hardness", self.hardness)
+        SHEAR_YIELD.require("shear_yield", self.shear_yield)
         if self.pressure_limit != math.inf:
             require_number("pressure_limit", self.pressure_limit, 0.0, open_minimum=True)
         require_number("coupling", self.coupling, -0.5, 0.5)
@@ -83,7 +84,7 @@ class Material:
 
 
 #: Wheel steel on rail steel, with the constants of the reference computations (G = 82 GPa, nu = 0.28).
-STEEL = Material(shear_modulus=82e9, poisson_ratio=0.28)
+STEEL = Material(SURFACE["G"].usual, SURFACE["nu"].usual)
 #: Allowed range of λ, ρ and c in SI units. It includes all solids, and the product does not overflow.
 THERMAL_RANGE = (1e-6, 1e9)
 

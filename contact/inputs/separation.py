@@ -11,13 +11,14 @@ from numpy.typing import ArrayLike, NDArray
 from contact.arrays import as_array
 from contact.core import Packed
 from contact.errors import ContactError, require_number
+from contact.inputs.options import ROLLING
 from contact.inputs.plausibility import doubt_value
 from contact.kernels.arrays import Samples
 from contact.kernels.separation import HERTZIAN_POINTS, fill_hertzian
 from contact.view.notebook import Sketch
 
 #: Largest slope of the surface [-], and largest rolling [1/m], which is that of a wheel with a radius of 1 mm.
-LARGEST_TILT, LARGEST_ROLLING = 1e3, 1e3
+LARGEST_TILT = 1e3
 #: Notebooks show the gap up to this height above its minimum [mm].
 SKETCHED = 2.0
 
@@ -102,7 +103,7 @@ class Separation:
             raise ContactError(
                 f"tilt[{i}] = {self.tilt[i]:g} is outside the allowed range [{-LARGEST_TILT:g}, {LARGEST_TILT:g}]"
             )
-        self.rolling = require_number("rolling", rolling, -LARGEST_ROLLING, LARGEST_ROLLING)
+        self.rolling = ROLLING.require("rolling", rolling)
         doubt_value("A", float(self.A[n // 2]))
         doubt_value("extent of y", float(self.y[-1] - self.y[0]))
         self._lay_out()

@@ -13,10 +13,10 @@ from numpy.typing import ArrayLike, NDArray
 from contact.arrays import Array, require_numbers
 from contact.errors import ContactError
 from contact.forces import cores
-from contact.friction import LARGEST, Friction
+from contact.friction import Friction
 from contact.geometry.posed import MAX_PENETRATION
 from contact.geometry.wheelset import Pair
-from contact.inputs.creepage import LARGEST_CREEPAGE
+from contact.inputs.options import CREEPAGE, FRICTION
 from contact.inputs.plausibility import doubt_values
 from contact.instance.case import set_surface
 from contact.kernels.enumerations import Height
@@ -137,11 +137,11 @@ def over_poses(
         "pose.y": require_numbers("y", y),
         "pose.roll": require_numbers("roll", roll, -LARGEST_ANGLE, LARGEST_ANGLE),
         "pose.yaw": require_numbers("yaw", yaw, -LARGEST_ANGLE, LARGEST_ANGLE),
-        "creepage.longitudinal": require_numbers("longitudinal", longitudinal, -LARGEST_CREEPAGE, LARGEST_CREEPAGE),
-        "creepage.lateral": require_numbers("lateral", lateral, -LARGEST_CREEPAGE, LARGEST_CREEPAGE),
-        "creepage.spin": require_numbers("spin", spin, -LARGEST_CREEPAGE, LARGEST_CREEPAGE),
+        "creepage.longitudinal": require_numbers("longitudinal", longitudinal, *CREEPAGE.bounds),
+        "creepage.lateral": require_numbers("lateral", lateral, *CREEPAGE.bounds),
+        "creepage.spin": require_numbers("spin", spin, *CREEPAGE.bounds),
         "speed": require_numbers("speed", speed, np.finfo(float).tiny),
-        "friction": require_numbers("friction", coefficients, 0.0, LARGEST),
+        "friction": require_numbers("friction", coefficients, *FRICTION.bounds),
     }
     for name, values in columns.items():
         doubt_values(name, values)

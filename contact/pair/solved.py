@@ -13,11 +13,10 @@ from contact.kernels.arrays import Bench
 from contact.kernels.records import CONTACT, TOTAL
 from contact.pair.solution import Contact, PairDamage, PairSolution
 from contact.results import PairJacobian, Status
+from contact.results.solution import RENAMED
 
 _STATES = {int(status): status for status in Status}
-#: Member of TOTAL → attribute of a solution, for the numbers that are called otherwise.
-_RENAMED = {"pmax": "max_pressure", "power": "power_per_metre"}
-_NAMES = tuple(_RENAMED.get(name, name) for name in TOTAL.names or ())
+_NAMES = tuple(RENAMED.get(name, name) for name in TOTAL.names or ())
 _PLAIN = [name for name in _NAMES if name in PairSolution.__dataclass_fields__ and name not in ("status", "damage")]
 _PICK = itemgetter(*(_NAMES.index(name) for name in _PLAIN))
 _STATUS = _NAMES.index("status")

@@ -40,10 +40,11 @@ ANSWERS = {
     "gap_error interacting": Usual(GAP_LIMIT_INTERACTING, about_gap(GAP_LIMIT_INTERACTING)),
 }
 
-#: Attribute of a solution → its place in the kernel's record or in the kernel's fields.
-_RENAMED = {"pmax": "max_pressure", "power": "power_per_metre", "stiffness": "normal_stiffness"}
+#: Member of the records RESULT and TOTAL → attribute of a solution, for the numbers that are called otherwise.
+RENAMED = {"pmax": "max_pressure", "power": "power_per_metre", "stiffness": "normal_stiffness"}
 _UNTOLD = "edges", "limited", "touch"
-_NUMBERS = {_RENAMED.get(name, name): k for k, name in enumerate(RESULT.names or ()) if name not in _UNTOLD}
+#: Attribute of a solution → its place in the kernel's record or in the kernel's fields.
+_NUMBERS = {RENAMED.get(name, name): k for k, name in enumerate(RESULT.names or ()) if name not in _UNTOLD}
 _FIELDS = {"x": Field.X, "p": Field.P, "qx": Field.QX, "qy": Field.QY, "sx": Field.SX, "sy": Field.SY}
 
 

@@ -16,7 +16,7 @@ from itertools import product
 from typing import TypedDict, Unpack
 
 from contact.errors import require_number
-from contact.inputs.options import Real, Whole
+from contact.inputs.options import MEMBERS, Real, Whole
 
 
 class Causality(StrEnum):
@@ -72,6 +72,12 @@ class Taken(TypedDict, total=False):
     integer: bool
 
 
+class Placed(Taken, total=False):
+    """The same, and where it goes."""
+
+    member: str
+
+
 class Attributes(Limits, total=False):
     """Optional attributes of a row, explained at `Variable`."""
 
@@ -86,6 +92,8 @@ class Attributes(Limits, total=False):
     tunable: bool
     used: Mapping[str, tuple[str, ...]]
     twin_of: str
+    member: str
+    integral_of: tuple[str | None, str | None] | None
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -122,6 +130,11 @@ class Variable:
         is not used may be any, even NaN.
     twin_of : str
         Row that this one stands for in hosts that do not know its type (`with_twins`).
+    member : str
+        "record.member" of the kernels (`contact.kernels.records`). A parameter or an input is copied to it, an output is copied
+        from it, an array of patches from as many records. An item of an enumeration counts from 0 there, a status from 1.
+    integral_of : (str or None, str or None), optional
+        A rate per metre and a speed of either sign, or one of the two. The output is the integral of their product over time.
     """
 
     name: str
@@ -142,6 +155,8 @@ class Variable:
     tunable: bool = False
     used: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
     twin_of: str = ""
+    member: str = ""
+    integral_of: tuple[str | None, str | None] | None = None
 
     @property
     def is_given(self) -> bool:
@@ -282,6 +297,11 @@ class Table:
         """Rows that stand for another one."""
         return [row for row in self.rows if row.twin_of]
 
+    def members(self, record: str, *, given: bool) -> dict[str, str]:
+        """Return name → member of `record` of the rows that a host gives, or of those that it reads."""
+        split = ((row, *row.member.partition(".")) for row in self.rows if row.is_given is given)
+        return {row.name: member for row, of, _, member in split if of == record}
+
     @property
     def structural(self) -> frozenset[str]:
         """Names of the parameters that determine the shape of the fields."""
@@ -356,6 +376,11 @@ def taken(option: Whole | Real) -> Taken:
     if option.above:
         found["open_minimum"] = True
     return found if math.isinf(option.most) else {**found, "maximum": option.most}
+
+
+def of(record: str, member: str) -> Placed:
+    """Return start value and range of a number of a record, and the place where it goes."""
+    return {**taken(MEMBERS[record][member]), "member": f"{record}.{member}"}
 
 
 def parameter(name: str, description: str, **attributes: Unpack[Attributes]) -> Variable:

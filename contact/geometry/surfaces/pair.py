@@ -24,7 +24,7 @@ from contact.halfspace.lattice import Lattice
 from contact.halfspace.norm import norm
 from contact.inputs.creepage import Creepage
 from contact.inputs.material import STEEL, Material
-from contact.inputs.options import COMBINE_DISTANCE, FLANGE_BACK, GAUGE, GAUGE_POINT, RADIUS, REFERENCE_SPEED
+from contact.inputs.options import COMBINE_DISTANCE, FLANGE_BACK, GAUGE, GAUGE_POINT, RADIUS, REACH, REFERENCE_SPEED
 from contact.instance import workspace
 from contact.instance.ownership import one_thread, within
 from contact.kernels.enumerations import Height
@@ -37,7 +37,6 @@ from contact.kernels.records import MAX_PATCHES
 Range = tuple[float, float, float, float]
 ROWS = COLUMNS = 60
 SAMPLES = 81  # of a separation; 41 miss the peaks of crossing noses
-REACHES = 1e-2, 0.3  # [m] least and largest reach from the axle
 #: Search under a load: most forces, their tolerance over the load, and [m] of the height below which the force jumps.
 _MOST, _LOAD_TOLERANCE, _SHORTEST = 40, 1e-5, 1e-12
 #: The overlap of a patch is measured on this many points along each side, at least twice, at most so many times. Where it
@@ -148,7 +147,7 @@ class SurfacePair(Posed):
         gauge_point: float = GAUGE_POINT.usual,
         rail_origin: tuple[float, float] | None = None,
         combine_distance: float = COMBINE_DISTANCE.usual,
-        reach: float = 0.06,
+        reach: float = REACH.usual,
         tilted: bool = False,
         rows: int = ROWS,
         columns: int = COLUMNS,
@@ -172,7 +171,7 @@ class SurfacePair(Posed):
         back = require_number("flange_back", flange_back, 0.1, 3.0)
         self.tape = 0.5 * back + TAPE_FROM_FLANGE_BACK if tape is None else require_number("tape", tape, 0.0, 3.0)
         self.combine_distance = require_number("combine_distance", combine_distance, 0.0)
-        self.reach = require_number("reach", reach, *REACHES)
+        self.reach = REACH.require("reach", reach)
         self.tilted = bool(tilted)
         both = (spacing, spacing) if isinstance(spacing, float | int) else spacing
         if both is not None:

@@ -68,9 +68,6 @@ class Component:
         Rows that are computed only when a host reads them.
     derived, derived_by : tuple of str
         Outputs and inputs of the matrix of ``model_jacobian``.
-    totals : mapping
-        Outputs that the wrapper integrates: name → a rate and a speed of either sign, one of which may be None. With both the
-        rate is one per metre.
     accumulated : tuple of str
         Rows that add up over time. They come after all other rows, and their numbers are the end of the warm start, not part
         of the values. The wrapper keeps them only after a call of ``model_outputs`` with h > 0, so in model exchange they stay
@@ -91,9 +88,13 @@ class Component:
     lazy: tuple[str, ...] = ()
     derived: tuple[str, ...] = ()
     derived_by: tuple[str, ...] = ()
-    totals: Mapping[str, tuple[str | None, str | None]] = field(default_factory=dict)
     accumulated: tuple[str, ...] = ()
     accumulates: str = ""
     exchange: bool = True
     warnings: Mapping[int, str] = field(default_factory=dict)
     failures: Mapping[int, str] = field(default_factory=dict)
+
+    @property
+    def totals(self) -> dict[str, tuple[str | None, str | None]]:
+        """Outputs that the wrapper integrates (`Variable.integral_of`)."""
+        return {row.name: row.integral_of for row in self.table.rows if row.integral_of}

@@ -1,4 +1,4 @@
-"""What each native FMU has beside its variables: files in resources/, totals, messages and numbers of its own. No kernels."""
+"""What each native FMU has beside its variables: files in resources/, messages and numbers of its own. No kernels."""
 
 from __future__ import annotations
 
@@ -19,13 +19,6 @@ from ..tables.vehicle import Starts
 from .component import Component, Resource, numbers
 
 WARNINGS: dict[int, str] = {s: f"status {s.name}: {s.message}" for s in (Status.OUT_OF_RANGE, Status.NOT_CONVERGED)}
-#: Outputs of a pair that are integrated over time: see `Component.totals`.
-TOTALS = {
-    "total.energy": ("power.friction", None),
-    "total.worn_volume": ("damage.archard_volume", "velocity.x"),
-    "total.distance": (None, "velocity.x"),
-    "total.T_gamma": ("damage.T_gamma", "velocity.x"),
-}
 #: Rows and columns of the derivatives that kernels know (`Component.derived`): those of `contact.kernels.jacobian`, and those
 #: of a pair, which are the members of `contact.kernels.rows.Moved`.
 CONTACT_DERIVED = (
@@ -98,7 +91,6 @@ def contact(points: int, elliptic: bool = False) -> Component:
         lazy=("creep_stiffness",),
         derived=CONTACT_DERIVED[0],
         derived_by=CONTACT_DERIVED[1],
-        totals={"total.energy": ("power.friction", None), "total.worn_volume": ("damage.archard_volume", "speed")},
         warnings=WARNINGS,
     )
 
@@ -111,7 +103,6 @@ def pair(inclination: float, accumulation: bool = False) -> Component:
         derived_by=PAIR_DERIVED[1],
         table=wheel_rail_pair.table(inclination, accumulation),
         resources=_PROFILES,
-        totals=TOTALS,
         accumulated=wheel_rail_pair.ACCUMULATED,
         accumulates="accumulation.wear_law",
         warnings=WARNINGS,
@@ -132,7 +123,6 @@ def surface_pair() -> Component:
             Resource(of.WHEEL, surfaces.MAGIC["wheel"], 1, of.MOST_NUMBERS),
             Resource(of.RAIL, surfaces.MAGIC["rail"], 1, of.MOST_NUMBERS),
         ),
-        totals=TOTALS,
         warnings=WARNINGS,
         failures={
             **_FAILURES,

@@ -7,10 +7,8 @@ from collections.abc import Callable
 from typing import Any
 
 import numpy as np
-from numba import carray
 
 import contact
-from contact.compile.pointers import numbers_of
 from contact.core import arranging
 from contact.damage import DamageParameters
 from contact.geometry.wheelset import TAPE_FROM_FLANGE_BACK
@@ -21,41 +19,27 @@ from contact.kernels.flexible import solve_flexible
 from contact.kernels.pair_conditions import derive_pair
 from contact.kernels.records import (
     CASE,
+    CONTACT,
     DAMAGE_PARAMETERS,
+    ELASTIC_RAIL,
     GIVEN,
     MAX_PATCHES,
+    MOTION,
     TOTAL,
     WHEEL_OFFSET,
 )
 from contact.kernels.rows import Moved
 from ..differences import creepage_steps
-from ..tables.solver import DAMAGE_OUTPUTS
-from ..tables.wheel_rail_pair import LOAD_KIND, PATCH, PATCHES, SIDE
+from ..tables.wheel_rail_pair import LOAD_KIND, PATCHES, SIDE
 from ..variables import Table
 from .components import Failure
-from .wires import MATERIAL, case_reader, choose, constant, reader, references, size_of, writer
+from .wires import case_reader, choose, constant, reader, references, size_of, writer
 
 _HEIGHTS = {"NormalForce": Height.LOAD, "Position": Height.GIVEN, "VerticalForce": Height.VERTICAL}
 #: Values of `Height`, by the number of an item of LOAD_KIND, less 1.
 _HEIGHT = np.array([int(_HEIGHTS[name]) for name, _ in LOAD_KIND.items])
 _RIGHT = SIDE.number("Right")
 _DAMAGE_PARAMETERS = np.array([DamageParameters().record(contact.STEEL, 1.0, 1.0)], DAMAGE_PARAMETERS)
-_N_PATCH_ROWS = len(PATCH)  # the first members of CONTACT, in this order
-#: Outputs ← members of TOTAL.
-_OUTPUTS = {
-    "wheelset.z": "z",
-    "pressure.max": "pmax",
-    "patches.count": "n_patches",
-    "patches.area": "area",
-    "status": "status",
-    "gap_error": "gap_error",
-    "wheel.Q": "Q",
-    "wheel.Y": "Y",
-    "wheel.Y_over_Q": "Y_over_Q",
-    "used_friction": "used_friction",
-    "bend": "bend",
-    **DAMAGE_OUTPUTS,
-}
 _steps = arranging(creepage_steps)
 
 
@@ -74,26 +58,23 @@ def sizer(table: Table) -> Callable[..., Any]:
 def parameter_setter(table: Table) -> Callable[..., Any]:
     """Return a compiled function that copies the parameters to the bench."""
     at, rows = references(table), constant(table)
-    read_material = reader(table, CASE, {**MATERIAL, "patches.surface": "conformal"})
+    read_case, read_motion = reader(table, "case", CASE), reader(table, "motion", MOTION)
+    read_damage = reader(table, "damage_parameters", DAMAGE_PARAMETERS)
+    read_rail = reader(table, "elastic_rail", ELASTIC_RAIL)
 
     @arranging
     def set_parameters(v, origin_y, origin_z, bench):
         motion = bench.search.motion[0]
-        motion.radius = v[at.wheel_radius]
+        read_motion(v, rows, bench.search.motion)
         motion.tape = 0.5 * v[at.wheel_flange_back] + TAPE_FROM_FLANGE_BACK
-        motion.combine_distance = v[at.patches_combine_distance]
-        motion.most_patches = int(v[at.patches_max])
         motion.mirror = 1.0 if v[at.side] == _RIGHT else -1.0
-        motion.origin_y, motion.origin_z, motion.slowest = origin_y, origin_z, v[at.reference_speed]
-        read_material(v, rows, bench.case)
+        motion.origin_y, motion.origin_z = origin_y, origin_z
+        read_case(v, rows, bench.case)
         choose(int(v[at.method_normal]), int(v[at.method_tangential]), bench.case[0])
         bench.search.case[0].G, bench.search.case[0].nu = bench.case[0].G, bench.case[0].nu
         bench.damage_parameters[0] = _DAMAGE_PARAMETERS[0]
-        parameters = bench.damage_parameters[0]
-        parameters.hardness, parameters.shear_yield = v[at.material_hardness], v[at.material_shear_yield]
-        rail = bench.rail[0]
-        rail.ky, rail.kz = v[at.rail_ky], v[at.rail_kz]
-        rail.preload_y, rail.preload_z = v[at.rail_preload_y], v[at.rail_preload_z]
+        read_damage(v, rows, bench.damage_parameters)
+        read_rail(v, rows, bench.rail)
 
     return set_parameters
 
@@ -101,13 +82,13 @@ def parameter_setter(table: Table) -> Callable[..., Any]:
 def step_solver(table: Table) -> Callable[..., Any]:
     """Return a compiled function that solves the pair for the inputs, and returns 0 or the number of a failure."""
     at, rows = references(table), constant(table)
-    read_surface = case_reader(table, {"velocity.x": "speed"})
+    read_case = case_reader(table)
 
     @arranging
     def solve(values, v, piece, bench):
         """Solve for `v`, which are `values` as an array. `piece` is the size of the memory of a patch."""
-        read_surface(v, rows, bench.case)
-        bench.case[0].speed = abs(bench.case[0].speed)
+        read_case(v, rows, bench.case)
+        bench.case[0].speed = abs(v[at.velocity_x])
         given, _ = block.records(values, at.pose_y, 1, GIVEN)
         offset, _ = block.records(values, at.offset_x, 1, WHEEL_OFFSET)
         bench.offset[0] = offset[0]
@@ -136,21 +117,18 @@ def _failure(code):
 def reporter(table: Table) -> Callable[..., Any]:
     """Return a compiled function that copies the results to the outputs."""
     at, rows = references(table), constant(table)
-    write = writer(table, TOTAL, _OUTPUTS)
+    write, write_contact = writer(table, "total", TOTAL), writer(table, "contact", CONTACT)
+    write_rail = writer(table, "elastic_rail", ELASTIC_RAIL)
 
     @arranging
     def report(v, bench):
         total = bench.total[0]
-        write(v, rows, bench.total)
-        for i, component in enumerate((total.Fx, total.Fy, total.Fz, total.Mx, total.My, total.Mz)):
-            v[at.force_x + i] = component
+        write(v, rows, bench.total, 0)
+        write_rail(v, rows, bench.rail, 0)
         for k in range(PATCHES):
-            numbers = carray(numbers_of(bench.contacts[k : k + 1]), (_N_PATCH_ROWS,))
-            for row in range(_N_PATCH_ROWS):
-                v[at.patch_n + PATCHES * row + k] = numbers[row]
+            write_contact(v, rows, bench.contacts[k : k + 1], k)
         v[at.slip_ratio] = total.slip_area / total.area if total.area > 0.0 else 0.0
         v[at.power_friction] = abs(v[at.velocity_x]) * total.power
-        v[at.rail_deflection_y], v[at.rail_deflection_z] = bench.rail[0].dy, bench.rail[0].dz
 
     return report
 

@@ -36,41 +36,14 @@ from contact.kernels.records import CASE, DAMAGE, DAMAGE_PARAMETERS, MAX_PATCHES
 from contact.kernels.rows import DamageField, Field, Strip
 from contact.kernels.separation import HERTZIAN_POINTS, fill_hertzian
 from ..differences import creepage_steps
-from ..tables.solver import DAMAGE_OUTPUTS, SURFACE
+from ..tables.solver import SURFACE
 from ..tables.wheel_rail_contact import FLATTEST, GEOMETRY_KIND, LOAD_KIND, table
 from .component import places
-from .wires import MATERIAL, case_reader, choose, size_of, writer
+from .wires import case_reader, choose, reader, size_of, writer
 
 _CURVATURES, _NORMAL_FORCE = GEOMETRY_KIND.number("Curvatures"), LOAD_KIND.number("NormalForce")
 _CONFORMAL = SURFACE.number("Conformal")
 _DAMAGE_PARAMETERS = np.array([DamageParameters().record(contact.STEEL, 1.0, 1.0)], DAMAGE_PARAMETERS)
-#: Variables → members of CASE.
-_CASE_INPUTS = {
-    **MATERIAL,
-    "creepage.longitudinal": "vx",
-    "creepage.lateral": "vy",
-    "creepage.spin": "phi",
-    "speed": "speed",
-    "geometry.surface": "conformal",
-    "geometry.rolling": "rolling",
-}
-#: Outputs ← members of RESULT.
-_OUTPUTS = {
-    "force.x": "Fx",
-    "force.y": "Fy",
-    "force.n": "N",
-    "moment.z": "Mz",
-    "approach": "approach",
-    "pressure.max": "pmax",
-    "patch.area": "area",
-    "patch.length": "length",
-    "patch.width": "width",
-    "patch.count": "n_patches",
-    "stiffness.normal": "stiffness",
-    "status": "status",
-    "gap_error": "gap_error",
-    "bend": "bend",
-}
 _steps = arranging(creepage_steps)
 
 
@@ -162,8 +135,8 @@ def _first(samples, n):
     return Samples(samples.y[:n], samples.g[:n], samples.A[:n], samples.x_c[:n], samples.tilt[:n])
 
 
-_read_case = case_reader(_TABLE, _CASE_INPUTS)
-_write, _write_damage = writer(_TABLE, RESULT, _OUTPUTS), writer(_TABLE, DAMAGE, DAMAGE_OUTPUTS)
+_read_case, _read_damage = case_reader(_TABLE), reader(_TABLE, "damage_parameters", DAMAGE_PARAMETERS)
+_write, _write_damage = writer(_TABLE, "result", RESULT), writer(_TABLE, "damage", DAMAGE)
 
 
 @arranging
@@ -205,8 +178,8 @@ def _pose(v, rows, a):
 def _report(v, rows, a):
     """Copy the results to the outputs."""
     at, result = rows[0], a.result[0]
-    _write(v, rows, a.result)
-    _write_damage(v, rows, a.damage)
+    _write(v, rows, a.result, 0)
+    _write_damage(v, rows, a.damage, 0)
     v[at.power_friction] = v[at.speed] * result.power
     v[at.slip_ratio] = result.slip_area / result.area if result.area > 0.0 else 0.0
 
@@ -292,10 +265,9 @@ def entries() -> dict[str, Callable[..., Any]]:
         at = rows[0]
         a, _, _ = arrange(v, at, work, given)
         _solve(_pose(v, rows, a), a)
-        parameters, n = a.damage_parameters[0], int(a.count[0])
-        parameters.speed, parameters.wheel_radius = v[at.speed], v[at.wheel_radius]
-        parameters.hardness, parameters.shear_yield = v[at.material_hardness], v[at.material_shear_yield]
-        own = a.own
+        _read_damage(v, rows, a.damage_parameters)
+        own, parameters, n = a.own, a.damage_parameters[0], int(a.count[0])
+        parameters.speed = v[at.speed]
         damage_kernel(own.strips, n, own.fields, a.case[0], a.result[0], parameters, a.damage_fields, a.damage[0])
         _report(v, rows, a)
         return a.result[0].status

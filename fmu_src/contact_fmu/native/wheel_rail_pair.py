@@ -13,18 +13,19 @@ from typing import Any, NamedTuple
 from numba import carray
 
 from contact.core import arranging, group
-from contact.kernels import block, memory, quadrature
+from contact.kernels import block, memory
 from contact.kernels.block import ahead
-from contact.kernels.damage.deposit import arc_length
-from contact.kernels.entries.layout import fill, lay_out
-from contact.kernels.geometry.prepare import facing, rail_origin, take_nodes, turn
+from contact.kernels.entries.layout import fill
+from contact.kernels.entries.pair import fill_profiles, lay_bench, lay_derivatives
+from contact.kernels.geometry.prepare import facing, rail_origin, turn
+from contact.kernels.records import LEDGER
 from contact.kernels.rows import N_PROFILE_ROWS, Bin
 from ..tables.wheel_rail_pair import ACCUMULATED, BINS, table
 from ..variables import Table
 from . import pair_parts
 from .components import PAIR_DERIVED, Failure
 from .pair_parts import sizer
-from .wires import references
+from .wires import constant, reader, references
 
 #: Shape of the derivatives that the host sees.
 DERIVED = tuple(map(len, PAIR_DERIVED))
@@ -63,41 +64,25 @@ def _lay(work, end, start, counts, size, constants):
 
     Return it, the arrays for its derivatives, these as the host sees them with their index, and the total size in numbers.
     """
-    search, end = memory.lay_search(work, end, counts[0], counts[1], 0, size.n_samples)
-    piece = memory.memory_size(size)
-    own, _, end = lay_out(work, end, start.kept[1 : 1 + piece], size, constants)
-    ledger, end = memory.lay_ledger(work, end, start.wheel, start.turned, start.bins, size.n_strips)
-    bench, end = memory.lay_bench(work, end, size, start.kept, search, own, ledger)
-    near, end = memory.lay_neighbour(work, end, size, bench)
-    aside, end = memory.lay_aside(work, end, size, near)
+    bench, _, end = lay_bench(work, end, (start.wheel, start.turned), counts, size, start.kept, start.bins, constants)
+    aside, end = lay_derivatives(work, end, size, bench)
     derived, total = block.matrix(work, end, *DERIVED)
     return bench, aside, (derived, end), total
 
 
-@arranging
-def _place(wheel, turned, counts, search):
-    """Copy the parts of the profiles that can touch to the search, and fill its quadrature rule."""
-    wheel_from, wheel_to = facing(wheel, True)
-    rail_from, rail_to = facing(turned, False)
-    counts[0], counts[1] = wheel_to - wheel_from, rail_to - rail_from
-    take_nodes(wheel, wheel_from, wheel_to, search.wheel)
-    take_nodes(turned, rail_from, rail_to, search.rail)
-    quadrature.fill_fejer(search.across.nodes, search.across.weights)
-
-
 def _parameter_setter(table: Table) -> Callable[..., Any]:
     """Return a compiled function that copies the parameters to the bench."""
-    at, set_shared = references(table), pair_parts.parameter_setter(table)
+    at, rows, set_shared = references(table), constant(table), pair_parts.parameter_setter(table)
+    read_ledger = reader(table, "ledger", LEDGER)
 
     @arranging
     def set_parameters(v, origin_y, origin_z, bench):
         set_shared(v, origin_y, origin_z, bench)
-        bench.search.motion[0].combine_angle = v[at.patches_combine_angle]
         bench.damage_parameters[0].wear_law = (
             int(v[at.accumulation_wear_law]) - 2
         )  # with the first item nothing accumulates
         settings = bench.ledger.settings[0]
-        settings.width = v[at.accumulation_width]
+        read_ledger(v, rows, bench.ledger.settings)
         settings.start = v[at.accumulation_first] / v[at.accumulation_width]
 
     return set_parameters
@@ -166,11 +151,10 @@ def entries() -> dict[str, Callable[..., Any]]:
             return Failure.GAUGE_POINT
         counts = wheel_to - wheel_from, rail_to - rail_from
         bench, _, _, _ = _lay(work, end, start, counts, size(v), given.data)
-        _place(wheel, turned, start.counts, bench.search)
+        start.counts[0], start.counts[1] = counts
+        fill_profiles(bench)
         fill(bench.own, v[at.material_poisson_ratio], given.data)
         set_parameters(v, origin_y, origin_z, bench)
-        arc_length(bench.ledger.wheel, bench.ledger.wheel_arc)
-        arc_length(bench.ledger.rail, bench.ledger.rail_arc)
         return 0
 
     def model_outputs(values, work, h, given):

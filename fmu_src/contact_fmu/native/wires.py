@@ -1,9 +1,8 @@
-"""Connect variables of an FMU's table with members of records, and make the functions that copy one to the other."""
+"""The functions that copy variables of an FMU to members of records and back, as its table says (`Variable.member`)."""
 
 from __future__ import annotations
 
 from collections import namedtuple
-from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
@@ -17,30 +16,6 @@ from contact.kernels.arrays import Size
 from contact.kernels.records import CASE
 from ..variables import Table, identifier
 from .component import numbers, places
-
-#: Inputs and parameters of a contact → members of the record CASE.
-SURFACE = {
-    "friction.coefficient": "mu",
-    "friction.law": "law",
-    "friction.kinetic": "kinetic",
-    "friction.half_speed": "half_speed",
-    "friction.slope": "slope",
-    "friction.slope_far": "slope_far",
-    "friction.slope_rate": "slope_rate",
-    "friction.velocity": "velocity",
-    "friction.gauge_factor": "gauge_factor",
-    "friction.border": "border",
-    "friction.border_width": "border_width",
-    "friction.k_A": "k_A",
-    "friction.k_S": "k_S",
-    "friction.temperature_range": "warm_range",
-}
-MATERIAL = {
-    "material.shear_modulus": "G",
-    "material.poisson_ratio": "nu",
-    "material.pressure_limit": "pressure_limit",
-    "method.max_iterations": "max_iterations",
-}
 
 _METHODS = contact.methods().batched
 #: Indexed by the value of `method.normal` or `method.tangential`, less 1.
@@ -73,14 +48,14 @@ def constant(table: Table) -> np.ndarray:
 
 
 def _wired(
-    table: Table, dtype: np.dtype, wires: Mapping[str, str]
+    table: Table, record: str, dtype: np.dtype, *, given: bool
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
     """Return four arrays: positions in `places`, positions in the record, whether a member is an integer, and value offsets.
 
     The offset is needed for enumerations: their items count from 1, the values of a member from 0.
     """
     assert dtype.fields is not None
-    names = places(table).names
+    wires, names = table.members(record, given=given), places(table).names
     references = np.array([names.index(identifier(name)) for name in wires])
     positions = np.array([dtype.fields[member][1] // 8 for member in wires.values()])
     whole = np.array([dtype.fields[member][0].kind == "i" for member in wires.values()])
@@ -88,12 +63,12 @@ def _wired(
     return references, positions, whole, first
 
 
-def reader(table: Table, dtype: np.dtype, wires: Mapping[str, str]) -> Any:
-    """Return a compiled function `read(v, at, records)` that copies values to the first record.
+def reader(table: Table, record: str, dtype: np.dtype) -> Any:
+    """Return a compiled function `read(v, at, records)` that copies given values to the first record.
 
     `at` is an array of one record `places` of a table with the rows of `table`.
     """
-    references, positions, whole, first = _wired(table, dtype, wires)
+    references, positions, whole, first = _wired(table, record, dtype, given=True)
     size, n_places = dtype.itemsize // 8, len(places(table))
 
     @arranging
@@ -110,27 +85,27 @@ def reader(table: Table, dtype: np.dtype, wires: Mapping[str, str]) -> Any:
     return read
 
 
-def writer(table: Table, dtype: np.dtype, wires: Mapping[str, str]) -> Any:
-    """Return a compiled function `write(v, at, records)` that copies members of the first record to values.
+def writer(table: Table, record: str, dtype: np.dtype) -> Any:
+    """Return a compiled function `write(v, at, records, k)` that copies members of the first record to element k of outputs.
 
     The value of a status is already the number of its item.
     """
-    references, positions, whole, _ = _wired(table, dtype, wires)
+    references, positions, whole, _ = _wired(table, record, dtype, given=False)
     size, n_places = dtype.itemsize // 8, len(places(table))
 
     @arranging
-    def write(v, at, records):
+    def write(v, at, records, k):
         numbers, integers = carray(numbers_of(records), (size,)), carray(integers_of(records), (size,))
         starts = carray(integers_of(at), (n_places,))
         for i in range(references.size):
-            v[starts[references[i]]] = float(integers[positions[i]]) if whole[i] else numbers[positions[i]]
+            v[starts[references[i]] + k] = float(integers[positions[i]]) if whole[i] else numbers[positions[i]]
 
     return write
 
 
-def case_reader(table: Table, wires: Mapping[str, str]) -> Any:
-    """Return a compiled function that fills a case from values: the members in `wires`, and friction with its heat."""
-    read = reader(table, CASE, {**SURFACE, **wires})
+def case_reader(table: Table) -> Any:
+    """Return a compiled function that fills a case from values: its members, and the heat of friction."""
+    read = reader(table, "case", CASE)
 
     @arranging
     def read_case(v, places, cases):

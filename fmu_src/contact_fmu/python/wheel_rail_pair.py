@@ -9,24 +9,22 @@ from typing import Any
 import numpy as np
 from pythonfmu.enums import Fmi2Status
 
-from contact import Material, Status
+from contact import Status
 from contact.damage import WEAR_LAWS, DamageParameters
 from contact.geometry.flexible import WheelOffset
 from contact.geometry.profile import Profile
 from contact.geometry.records import Irregularity, Pose, Velocity
 from contact.geometry.wheelset import Pair
 from contact.instance import workspace
-from contact.pair import Contact, ElasticRail, WheelRailPair
+from contact.pair import ElasticRail, WheelRailPair
 from .. import profiles
-from ..tables.solver import DAMAGE_OUTPUTS
-from ..tables.wheel_rail_pair import ACCUMULATED, BINS, MOTION, OFFSET, PATCH, PATCHES, table
+from ..tables.wheel_rail_pair import ACCUMULATED, BINS, MOTION, OFFSET, PATCHES, table
 from ..variables import Causality
-from .friction import friction
 from .slave import TableSlave
+from .surface import friction, methods
 from .values import Rows, SlaveValues
 
 _MOTION = [name for name, *_ in MOTION]
-_NO_CONTACT = [0.0] * len(PATCH)
 
 
 class WheelRailPairSlave(TableSlave):
@@ -60,32 +58,15 @@ class WheelRailPairSlave(TableSlave):
                 rail=_rail(values),
                 offset=WheelOffset(*(values[name] for name, *_ in OFFSET)),
             )
-            rows = {name: getattr(solution.damage, member) for name, member in DAMAGE_OUTPUTS.items()}
-            power, worn = (speed * x for x in (solution.power_per_metre, rows["damage.archard_volume"]))
-            rows |= {
-                **{f"force.{axis}": float(x) for axis, x in zip("xyz", solution.force, strict=True)},
-                **{f"moment.{axis}": float(x) for axis, x in zip("xyz", solution.moment, strict=True)},
-                "wheelset.z": solution.z,
-                "pressure.max": solution.max_pressure,
-                "patches.count": len(solution.contacts),
-                "patches.area": solution.area,
-                **_patches(solution.contacts),
+            bench = pair.bench
+            rows: dict[str, Any] = {
+                **self.copied("total", lambda name: bench.total[name].item()),
+                **self.copied("elastic_rail", lambda name: bench.rail[name].item()),
+                **self.copied("contact", lambda name: bench.contacts[name][:PATCHES].tolist()),
                 "slip.ratio": solution.slip_ratio,
-                "power.friction": power,
-                "status": int(solution.status),
-                "gap_error": solution.gap_error,
-                "wheel.Q": solution.Q,
-                "wheel.Y": solution.Y,
-                "wheel.Y_over_Q": solution.Y_over_Q,
-                "used_friction": solution.used_friction,
-                "bend": solution.bend,
-                "rail.deflection_y": solution.deflection[0],
-                "rail.deflection_z": solution.deflection[1],
-                "total.energy": values["total.energy"] + power * step_size,
-                "total.worn_volume": values["total.worn_volume"] + worn * step_size,
-                "total.distance": values["total.distance"] + speed * step_size,
-                "total.T_gamma": values["total.T_gamma"] + rows["damage.T_gamma"] * speed * step_size,
+                "power.friction": speed * solution.power_per_metre,
             }
+            rows |= self.integrals(values, rows, step_size)
             if bins.size:
                 rows |= zip(ACCUMULATED, bins.reshape(-1, BINS).tolist(), strict=True)
             values.updated(rows)
@@ -115,13 +96,7 @@ class WheelRailPairSlave(TableSlave):
         if self.pair is None or wanted != self.built_with:
             old = self.pair
             wheel, rail = self.profiles[0], self.profiles[1].rotated(-np.arctan(values["rail.inclination"]))
-            material = Material(
-                values["material.shear_modulus"],
-                values["material.poisson_ratio"],
-                hardness=values["material.hardness"],
-                shear_yield=values["material.shear_yield"],
-                pressure_limit=values["material.pressure_limit"] or math.inf,
-            )
+            options = methods(values)
             geometry = Pair(
                 wheel,
                 rail,
@@ -134,17 +109,12 @@ class WheelRailPairSlave(TableSlave):
                 combine_angle=values["patches.combine_angle"],
                 most_patches=values["patches.max"],
                 samples=values["resolution.n_samples"],
-                material=material,
+                material=options["material"],
                 reference_speed=values["reference_speed"],
             )
             self.pair = WheelRailPair(
                 geometry,
-                material=material,
-                normal=values.item("method.normal"),
-                tangential=values.item("method.tangential"),
-                max_iterations=values["method.max_iterations"],
-                n_strips=values["resolution.n_strips"],
-                n_elements=values["resolution.n_elements"],
+                **options,
                 conformal=values.item("patches.surface") == "Conformal",
                 **_accumulation(values, wheel, rail),
             )
@@ -180,24 +150,3 @@ def _accumulation(values: SlaveValues, wheel: Profile, rail: Profile) -> dict[st
         values["accumulation.width"],
     )
     return {"ledger": ledger, "damage": DamageParameters(wear_law=WEAR_LAWS[law - 2])}
-
-
-def _patches(contacts: tuple[Contact, ...]) -> Rows:
-    """Return the rows of all patches, with zeros for missing patches."""
-    columns = [_patch(contact) for contact in contacts]
-    columns += [_NO_CONTACT] * (PATCHES - len(columns))
-    return {f"patch[].{name}": list(row) for (name, *_), row in zip(PATCH, zip(*columns, strict=True), strict=True)}
-
-
-def _patch(c: Contact) -> list[float]:
-    creepage = c.creepage
-    return [
-        *(c.N, c.Fx, c.Fy, c.Mx, c.My, c.Mz),
-        *c.position,
-        *(c.angle, c.area, c.max_pressure),
-        *(creepage.longitudinal, creepage.lateral, creepage.spin),
-        c.approach,
-        *c.on_rail,
-        *c.on_wheel,
-        c.used_friction,
-    ]

@@ -6,11 +6,11 @@ from collections.abc import Iterable
 from dataclasses import replace
 
 import contact
-from contact import Status, friction, registry
+from contact import Status, registry
 from contact.inputs.material import THERMAL_RANGE, Thermal
-from contact.inputs.options import ITERATIONS, N_ELEMENTS, N_STRIPS
+from contact.inputs.options import HOT_FACTOR, N_ELEMENTS, N_STRIPS, TEMPERATURE, TEMPERATURE_RANGE
 from contact.results import BEND
-from ..variables import Enumeration, Variable, output, parameter, taken
+from ..variables import Enumeration, Variable, of, output, parameter, taken
 
 NORMAL_METHOD = Enumeration("NormalMethod", tuple((m.name, m.title) for m in contact.methods().batched.normal.values()))
 TANGENTIAL_METHOD = Enumeration(
@@ -74,7 +74,6 @@ def parameters() -> Iterable[Variable]:
 
 
 def _parameters() -> Iterable[Variable]:
-    steel = contact.STEEL
     yield parameter(
         "method.normal", "Method for the normal problem", enumeration=NORMAL_METHOD, start=registry.DEFAULT_NORMAL
     )
@@ -85,38 +84,22 @@ def _parameters() -> Iterable[Variable]:
         start=registry.DEFAULT_TANGENTIAL,
     )
     yield parameter(
-        "material.shear_modulus",
-        "Combined shear modulus of wheel and rail",
-        unit="Pa",
-        start=steel.shear_modulus,
-        minimum=0.0,
-        open_minimum=True,
-        nominal=1e11,
+        "material.shear_modulus", "Combined shear modulus of wheel and rail", unit="Pa", nominal=1e11, **of("case", "G")
     )
-    yield parameter(
-        "material.poisson_ratio",
-        "Combined Poisson ratio of wheel and rail",
-        start=steel.poisson_ratio,
-        minimum=0.0,
-        maximum=0.5,
-    )
+    yield parameter("material.poisson_ratio", "Combined Poisson ratio of wheel and rail", **of("case", "nu"))
     yield parameter(
         "material.hardness",
         "Hardness of the softer body (wear)",
         unit="Pa",
-        start=steel.hardness,
-        minimum=0.0,
-        open_minimum=True,
         nominal=1e9,
+        **of("damage_parameters", "hardness"),
     )
     yield parameter(
         "material.shear_yield",
         "Yield stress in shear (fatigue and stress index)",
         unit="Pa",
-        start=steel.shear_yield,
-        minimum=0.0,
-        open_minimum=True,
         nominal=1e8,
+        **of("damage_parameters", "shear_yield"),
     )
     yield parameter(
         "material.pressure_limit",
@@ -125,11 +108,12 @@ def _parameters() -> Iterable[Variable]:
         start=0.0,
         minimum=0.0,
         nominal=1e9,
+        member="case.pressure_limit",
     )
     yield parameter(
         "method.max_iterations",
         "Most iterations of interacting strips, which cap the time of a step; then the status is NotConverged",
-        **taken(ITERATIONS),
+        **of("case", "max_iterations"),
     )
     yield parameter(
         "resolution.n_strips",
@@ -139,93 +123,85 @@ def _parameters() -> Iterable[Variable]:
     )
     yield parameter("resolution.n_elements", "Elements per strip", **taken(N_ELEMENTS))
     yield parameter(
-        "friction.law", "Dependence of friction on sliding velocity", enumeration=FRICTION_LAW, start="Coulomb"
+        "friction.law",
+        "Dependence of friction on sliding velocity",
+        enumeration=FRICTION_LAW,
+        start="Coulomb",
+        member="case.law",
     )
     yield parameter(
         "friction.kinetic",
         "Coefficient of friction at high sliding velocity; not used by Coulomb",
-        start=0.3,
-        minimum=0.0,
-        maximum=friction.LARGEST,
+        **of("case", "kinetic"),
     )
     yield parameter(
         "friction.half_speed",
         "Sliding velocity at which friction is halfway from friction.coefficient to friction.kinetic",
         unit="m/s",
-        start=1.0,
-        minimum=0.0,
-        open_minimum=True,
+        **of("case", "half_speed"),
     )
     yield parameter(
-        "friction.slope",
-        "Factor on the creep stiffness at small creepage; 1: clean surfaces",
-        start=1.0,
-        minimum=0.0,
-        maximum=1.0,
-        open_minimum=True,
+        "friction.slope", "Factor on the creep stiffness at small creepage; 1: clean surfaces", **of("case", "slope")
     )
     yield parameter(
         "friction.slope_far",
         "Limit of the factor at large creepage, divided by friction.slope",
-        start=1.0,
-        minimum=0.0,
-        maximum=1.0,
+        **of("case", "slope_far"),
     )
-    yield parameter("friction.slope_rate", "Rate at which the factor falls with creepage", start=1.0, minimum=0.0)
+    yield parameter("friction.slope_rate", "Rate at which the factor falls with creepage", **of("case", "slope_rate"))
     yield parameter(
-        "friction.velocity", "Slip velocity that the law follows", enumeration=FRICTION_VELOCITY, start="Global"
+        "friction.velocity",
+        "Slip velocity that the law follows",
+        enumeration=FRICTION_VELOCITY,
+        start="Global",
+        member="case.velocity",
     )
     yield parameter(
         "friction.gauge_factor",
         "Factor on all coefficients of friction on the gauge side of the profile",
-        start=1.0,
-        minimum=0.0,
-        maximum=100.0,
+        **of("case", "gauge_factor"),
     )
     yield parameter(
         "friction.border",
         "Border of the gauge side, which is y below it: in the plane of the separation, or in the profile of either rail",
         unit="m",
-        start=0.0,
+        **of("case", "border"),
     )
     yield parameter(
         "friction.border_width",
         "Width of the smooth transition at friction.border; negative: the gauge side is y above it",
         unit="m",
-        start=5e-3,
         nominal=1e-3,
+        **of("case", "border_width"),
     )
     for name, where in (("k_A", "adhesion"), ("k_S", "slip")):
         yield parameter(
             f"friction.{name}",
             f"Polach's reduction factor in the area of {where}, used only when method.tangential = polach",
-            start=1.0,
-            minimum=0.0,
-            maximum=1.0,
-            open_minimum=True,
+            **of("case", name),
         )
     yield parameter(
         "friction.hot_factor",
         "Share of the coefficient of friction that remains when hot; 1: friction does not depend on the temperature",
-        start=1.0,
-        minimum=0.0,
-        maximum=1.0,
+        **taken(HOT_FACTOR),
     )
-    room = friction.ROOM_TEMPERATURE
-    for name, start, description in (
-        ("reference_temperature", room, "Temperature above which friction falls linearly"),
-        ("temperature_range", 400.0, "Rise above it at which friction has fallen to friction.hot_factor"),
-        ("background_temperature", room, "Mean temperature of wheel and rail outside the patch"),
+    for name, option, member, description in (
+        ("reference_temperature", TEMPERATURE, "", "Temperature above which friction falls linearly"),
+        (
+            "temperature_range",
+            TEMPERATURE_RANGE,
+            "case.warm_range",
+            "Rise above it at which friction has fallen to friction.hot_factor",
+        ),
+        ("background_temperature", TEMPERATURE, "", "Mean temperature of wheel and rail outside the patch"),
     ):
         yield parameter(
             f"friction.{name}",
             description,
             unit="K",
-            start=start,
-            minimum=0.0,
-            maximum=friction.HOTTEST,
-            open_minimum=name == "temperature_range",
+            **taken(option),
             nominal=100.0,
+            member=member,
         )
     low, high = THERMAL_RANGE
     for name, unit, description in (
@@ -251,49 +227,76 @@ def _parameters() -> Iterable[Variable]:
     )
 
 
-#: Outputs of `damage` ← members of the records DAMAGE and TOTAL.
-DAMAGE_OUTPUTS = {
-    "damage.T_gamma": "T_gamma",
-    "damage.wear_rate_pearce_sherratt": "pearce_sherratt",
-    "damage.index_burstow": "burstow",
-    "damage.wear_rate_usfd": "usfd",
-    "damage.archard_depth_max": "archard_depth",
-    "damage.archard_volume": "archard_volume",
-    "damage.fatigue_index_surface": "fatigue_index",
-    "damage.stress_index_max": "stress_index",
-    "damage.energy_index_max": "energy_index",
-}
-
-
-def damage() -> Iterable[Variable]:
-    """Yield the outputs of the damage models."""
-    yield output("damage.T_gamma", "Wear number |Fx ξ| + |Fy η|", unit="N", minimum=0.0, nominal=100.0)
+def damage(record: str) -> Iterable[Variable]:
+    """Yield the outputs of the damage models, members of the record DAMAGE or TOTAL."""
     yield output(
-        "damage.wear_rate_pearce_sherratt", "Tread area worn off, Pearce and Sherratt", unit="m2/m", minimum=0.0
+        "damage.T_gamma",
+        "Wear number |Fx ξ| + |Fy η|",
+        unit="N",
+        minimum=0.0,
+        nominal=100.0,
+        member=f"{record}.T_gamma",
     )
-    yield output("damage.index_burstow", "Rolling contact fatigue index per axle pass, Burstow")
+    yield output(
+        "damage.wear_rate_pearce_sherratt",
+        "Tread area worn off, Pearce and Sherratt",
+        unit="m2/m",
+        minimum=0.0,
+        member=f"{record}.pearce_sherratt",
+    )
+    yield output(
+        "damage.index_burstow", "Rolling contact fatigue index per axle pass, Burstow", member=f"{record}.burstow"
+    )
     yield output(
         "damage.wear_rate_usfd",
         "Volume worn off a unit of contact area, Sheffield",
         unit="m/m",
         minimum=0.0,
         nominal=1e-8,
+        member=f"{record}.usfd",
     )
-    yield output("damage.archard_depth_max", "Greatest wear depth, Archard", unit="m/m", minimum=0.0, nominal=1e-10)
-    yield output("damage.archard_volume", "Volume worn off, Archard", unit="m3/m", minimum=0.0, nominal=1e-12)
-    yield output("damage.fatigue_index_surface", "Surface fatigue index, Ekberg")
-    yield output("damage.stress_index_max", "Greatest stress index |q| - k", unit="Pa", nominal=1e8)
-    yield output("damage.energy_index_max", "Greatest energy index q.w", unit="Pa", nominal=1e6)
+    yield output(
+        "damage.archard_depth_max",
+        "Greatest wear depth, Archard",
+        unit="m/m",
+        minimum=0.0,
+        nominal=1e-10,
+        member=f"{record}.archard_depth",
+    )
+    yield output(
+        "damage.archard_volume",
+        "Volume worn off, Archard",
+        unit="m3/m",
+        minimum=0.0,
+        nominal=1e-12,
+        member=f"{record}.archard_volume",
+    )
+    yield output("damage.fatigue_index_surface", "Surface fatigue index, Ekberg", member=f"{record}.fatigue_index")
+    yield output(
+        "damage.stress_index_max",
+        "Greatest stress index |q| - k",
+        unit="Pa",
+        nominal=1e8,
+        member=f"{record}.stress_index",
+    )
+    yield output(
+        "damage.energy_index_max", "Greatest energy index q.w", unit="Pa", nominal=1e6, member=f"{record}.energy_index"
+    )
 
 
-def status_and_totals() -> Iterable[Variable]:
-    """Yield the status of the solution and the totals over time."""
-    yield output("status", "Status of the solution", enumeration=STATUS)
-    yield output("total.energy", "Energy dissipated since start", unit="J", start=0.0, minimum=0.0, depends=())
-    yield output("total.worn_volume", "Volume worn off since start", unit="m3", start=0.0, minimum=0.0, depends=())
+def status_and_totals(record: str, speed: str) -> Iterable[Variable]:
+    """Yield the status of the solution, a member of the record RESULT or TOTAL, and the totals over time at a `speed`."""
+    yield output("status", "Status of the solution", enumeration=STATUS, member=f"{record}.status")
+    yield total("energy", "Energy dissipated since start", "J", ("power.friction", None))
+    yield total("worn_volume", "Volume worn off since start", "m3", ("damage.archard_volume", speed))
 
 
-def bend(depends: tuple[str, ...] | None = None) -> Variable:
+def total(name: str, description: str, unit: str, of: tuple[str | None, str | None]) -> Variable:
+    """Return an output that is integrated over time (`Variable.integral_of`)."""
+    return output(f"total.{name}", description, unit=unit, start=0.0, minimum=0.0, depends=(), integral_of=of)
+
+
+def bend(record: str, depends: tuple[str, ...] | None = None) -> Variable:
     """Return how far the contact angle changes over a patch."""
     return output(
         "bend",
@@ -302,10 +305,11 @@ def bend(depends: tuple[str, ...] | None = None) -> Variable:
         minimum=0.0,
         nominal=0.1,
         depends=depends,
+        member=f"{record}.bend",
     )
 
 
-def gap_error(depends: tuple[str, ...] | None = None) -> Variable:
+def gap_error(record: str, depends: tuple[str, ...] | None = None) -> Variable:
     """Return the error estimate of the normal problem."""
     return output(
         "gap_error",
@@ -315,4 +319,5 @@ def gap_error(depends: tuple[str, ...] | None = None) -> Variable:
         minimum=0.0,
         maximum=1.0,
         depends=depends,
+        member=f"{record}.gap_error",
     )

@@ -12,8 +12,7 @@ from functools import cache
 
 from contact_models.vehicle.declared import VehicleDeclaration, read
 from ..variables import Attributes, Table, Variable, output, parameter, signal
-from . import wheel_rail_pair
-from .solver import DAMAGE_OUTPUTS
+from . import solver, wheel_rail_pair
 
 #: Name of a row → its start, a tuple for an array (`contact_fmu.starts`).
 Starts = tuple[tuple[str, float | str | tuple[float, ...]], ...]
@@ -43,7 +42,10 @@ COORDINATES = (
 #: Rows of the wheels ← outputs of the pair.
 WHEEL = {
     f"wheel[].{name.removeprefix('wheel.')}": name
-    for name in ("wheel.Q", "wheel.Y", "wheel.Y_over_Q", "pressure.max", "patches.count", "status", *DAMAGE_OUTPUTS)
+    for name in (
+        *("wheel.Q", "wheel.Y", "wheel.Y_over_Q", "pressure.max", "patches.count", "status"),
+        *(row.name for row in solver.damage("total")),
+    )
 }
 #: Totals of a wheel: unit, meaning, and the outputs of the pair whose product is the rate.
 TOTALS = {

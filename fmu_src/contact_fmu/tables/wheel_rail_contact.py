@@ -7,12 +7,10 @@ from dataclasses import replace
 from functools import cache
 from typing import Unpack
 
-from contact import friction
-from contact.inputs.creepage import LARGEST_CREEPAGE
 from contact.inputs.options import RADIUS
-from contact.inputs.separation import LARGEST_ROLLING, LARGEST_TILT
+from contact.inputs.separation import LARGEST_TILT
 from contact.kernels.records import MAX_PATCHES
-from ..variables import Attributes, Enumeration, Table, Variable, output, parameter, signal
+from ..variables import Attributes, Enumeration, Table, Variable, of, output, parameter, signal
 from . import solver
 
 GEOMETRY_KIND = Enumeration(
@@ -98,6 +96,7 @@ def _parameters(points: int) -> Iterable[Variable]:
         enumeration=solver.SURFACE,
         start="Plane",
         used=_SAMPLES,
+        member="case.conformal",
     )
     yield parameter("load.kind", "How the load is given", enumeration=LOAD_KIND, start="NormalForce")
     yield from solver.parameters()
@@ -108,6 +107,7 @@ def _parameters(points: int) -> Iterable[Variable]:
         start=RADIUS.usual,
         minimum=0.0,
         open_minimum=True,
+        member="damage_parameters.wheel_radius",
     )
 
 
@@ -141,13 +141,13 @@ def _inputs(points: int) -> Iterable[Variable]:
         nominal=0.1,
         used=_CONFORMAL,
     )
+    rolling = of("case", "rolling")
+    rolling["start"] = 1.0 / RADIUS.usual
     yield signal(
         "geometry.rolling",
         "Rotation about y per metre rolled, cos(contact angle)/rolling radius, used when geometry.surface = Conformal",
         unit="rad/m",
-        start=1.0 / RADIUS.usual,
-        minimum=-LARGEST_ROLLING,
-        maximum=LARGEST_ROLLING,
+        **rolling,
         used=_CONFORMAL,
     )
     for letter, axis, start in (("A", "in the rolling direction", 0.5 / RADIUS.usual), ("B", "across", 1.0)):
@@ -159,19 +159,17 @@ def _inputs(points: int) -> Iterable[Variable]:
             minimum=0.0,
             used=_CURVATURES,
         )
-    for name, description, unit, nominal in (
-        ("longitudinal", "Longitudinal creepage", "1", 1e-3),
-        ("lateral", "Lateral creepage", "1", 1e-3),
-        ("spin", "Spin creepage", "rad/m", 0.1),
+    for name, of_case, description, unit, nominal in (
+        ("longitudinal", "vx", "Longitudinal creepage", "1", 1e-3),
+        ("lateral", "vy", "Lateral creepage", "1", 1e-3),
+        ("spin", "phi", "Spin creepage", "rad/m", 0.1),
     ):
         yield signal(
             f"creepage.{name}",
             f"{description}, wheel minus rail",
             unit=unit,
-            start=0.0,
-            minimum=-LARGEST_CREEPAGE,
-            maximum=LARGEST_CREEPAGE,
             nominal=nominal,
+            **of("case", of_case),
         )
     yield signal(
         "load.normal_force",
@@ -194,31 +192,64 @@ def _inputs(points: int) -> Iterable[Variable]:
         "speed",
         "Rolling speed; without speed-dependent friction it scales only rates; at standstill these are 0",
         unit="m/s",
-        start=20.0,
-        minimum=0.0,
         nominal=10.0,
+        **of("case", "speed"),
     )
-    yield signal("friction.coefficient", "Coefficient of friction", start=0.3, minimum=0.0, maximum=friction.LARGEST)
+    yield signal("friction.coefficient", "Coefficient of friction", **of("case", "mu"))
 
 
 def _outputs() -> Iterable[Variable]:
-    yield output("force.x", "Longitudinal creep force on the wheel", unit="N", nominal=1e4)
-    yield output("force.y", "Lateral creep force on the wheel", unit="N", nominal=1e4)
-    yield output("force.n", "Normal force", unit="N", minimum=0.0, nominal=1e5, depends=_NORMAL_PROBLEM)
-    yield output("moment.z", "Spin moment on the wheel about the origin of y", unit="N.m", nominal=100.0)
-    yield output("approach", "Rigid approach from first touch", unit="m", nominal=1e-4, depends=_NORMAL_PROBLEM)
-    for name, description, unit, nominal in (
-        ("pressure.max", "Greatest contact pressure", "Pa", 1e9),
-        ("patch.area", "Contact area", "m2", 1e-4),
-        ("patch.length", "Extent of the patch in the rolling direction", "m", 1e-2),
-        ("patch.width", "Extent of the patch across", "m", 1e-2),
+    yield output("force.x", "Longitudinal creep force on the wheel", unit="N", nominal=1e4, member="result.Fx")
+    yield output("force.y", "Lateral creep force on the wheel", unit="N", nominal=1e4, member="result.Fy")
+    yield output(
+        "force.n", "Normal force", unit="N", minimum=0.0, nominal=1e5, depends=_NORMAL_PROBLEM, member="result.N"
+    )
+    yield output(
+        "moment.z", "Spin moment on the wheel about the origin of y", unit="N.m", nominal=100.0, member="result.Mz"
+    )
+    yield output(
+        "approach",
+        "Rigid approach from first touch",
+        unit="m",
+        nominal=1e-4,
+        depends=_NORMAL_PROBLEM,
+        member="result.approach",
+    )
+    for name, of_result, description, unit, nominal in (
+        ("pressure.max", "pmax", "Greatest contact pressure", "Pa", 1e9),
+        ("patch.area", "area", "Contact area", "m2", 1e-4),
+        ("patch.length", "length", "Extent of the patch in the rolling direction", "m", 1e-2),
+        ("patch.width", "width", "Extent of the patch across", "m", 1e-2),
     ):
-        yield output(name, description, unit=unit, minimum=0.0, nominal=nominal, depends=_NORMAL_PROBLEM)
-    yield output("patch.count", "Number of separate patches", integer=True, minimum=0, depends=_NORMAL_PROBLEM)
+        yield output(
+            name,
+            description,
+            unit=unit,
+            minimum=0.0,
+            nominal=nominal,
+            depends=_NORMAL_PROBLEM,
+            member=f"result.{of_result}",
+        )
+    yield output(
+        "patch.count",
+        "Number of separate patches",
+        integer=True,
+        minimum=0,
+        depends=_NORMAL_PROBLEM,
+        member="result.n_patches",
+    )
     yield output("slip.ratio", "Slip area over contact area", minimum=0.0, maximum=1.0)
     yield output("power.friction", "Frictional power", unit="W", minimum=0.0, nominal=1e3)
-    yield from solver.damage()
-    yield output("stiffness.normal", "dN/d(approach)", unit="N/m", minimum=0.0, nominal=1e9, depends=_NORMAL_PROBLEM)
+    yield from solver.damage("damage")
+    yield output(
+        "stiffness.normal",
+        "dN/d(approach)",
+        unit="N/m",
+        minimum=0.0,
+        nominal=1e9,
+        depends=_NORMAL_PROBLEM,
+        member="result.stiffness",
+    )
     yield output(
         "creep_stiffness",
         "d(force.x, force.y, moment.z)/d(longitudinal, lateral, spin creepage); computed only when it is read, which takes "
@@ -227,9 +258,9 @@ def _outputs() -> Iterable[Variable]:
         shape=(3, 3),
         nominal=1e6,
     )
-    yield from solver.status_and_totals()
-    yield solver.gap_error(depends=_NORMAL_PROBLEM)
-    yield solver.bend(depends=(*_NORMAL_PROBLEM, "geometry.surface", "geometry.tilt"))
+    yield from solver.status_and_totals("result", "speed")
+    yield solver.gap_error("result", depends=_NORMAL_PROBLEM)
+    yield solver.bend("result", depends=(*_NORMAL_PROBLEM, "geometry.surface", "geometry.tilt"))
 
 
 def _fields() -> Iterable[Variable]:

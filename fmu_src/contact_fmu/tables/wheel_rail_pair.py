@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Iterable
 from functools import cache
 
-from contact import friction
 from contact.accumulation import MAXIMA, SUMS
 from contact.geometry.wheelset import SAMPLES
 from contact.inputs.options import (
@@ -17,8 +16,8 @@ from contact.inputs.options import (
     RADIUS,
     REFERENCE_SPEED,
 )
-from contact.kernels.records import LARGEST_ANGLE, LARGEST_RAIL_ROLL
-from ..variables import Enumeration, Limits, Table, Variable, output, parameter, signal, taken
+from contact.kernels.records import CONTACT, GIVEN, WHEEL_OFFSET
+from ..variables import Enumeration, Table, Variable, of, output, parameter, signal, taken
 from . import solver
 
 SIDE = Enumeration("Side", (("Left", "the left wheel and rail"), ("Right", "the right wheel and rail")))
@@ -94,17 +93,10 @@ OFFSET = (
     ("offset.pitch_rate", "rad/s", "Rate of offset.pitch; adds to velocity.spin"),
     ("offset.yaw_rate", "rad/s", "Rate of offset.yaw"),
 )
-_LIMITS: dict[str, Limits] = {
-    "pose.roll": {"minimum": -LARGEST_ANGLE, "maximum": LARGEST_ANGLE},
-    "pose.yaw": {"minimum": -LARGEST_ANGLE, "maximum": LARGEST_ANGLE},
-    "irregularity.roll": {"minimum": -LARGEST_RAIL_ROLL, "maximum": LARGEST_RAIL_ROLL},
-    **{f"offset.{angle}": {"minimum": -LARGEST_ANGLE, "maximum": LARGEST_ANGLE} for angle in ("roll", "pitch", "yaw")},
-    "velocity.x": {"nominal": 10.0},
-}
 _SPEED = 20.0
 _STARTS = {"velocity.x": _SPEED, "velocity.spin": -_SPEED / RADIUS.usual}
 
-#: Outputs of a patch in the order of the record CONTACT: name after `patch[k].`, unit, nominal, description.
+#: Outputs of a patch, the first members of the record CONTACT: name after `patch[k].`, unit, nominal, description.
 PATCH = (
     ("n", "N", 1e5, "Normal force"),
     ("fx", "N", 1e4, "Longitudinal creep force on the wheel"),
@@ -162,7 +154,9 @@ def parameters(inclination: float) -> Iterable[Variable]:
     """Yield the parameters, which the FMU `Vehicle` has too. `inclination` is a default, as in `table`."""
     yield parameter("side", "Which wheel and rail; the left side is the mirror image", enumeration=SIDE, start="Right")
     yield parameter("load.kind", "How the load is given", enumeration=LOAD_KIND, start="NormalForce")
-    yield parameter("wheel.radius", "Nominal radius, at the tape circle", unit="m", **taken(RADIUS))
+    yield parameter(
+        "wheel.radius", "Nominal radius, at the tape circle", unit="m", **taken(RADIUS), member="motion.radius"
+    )
     yield parameter("wheel.flange_back", "Distance between the backs of the flanges", unit="m", **taken(FLANGE_BACK))
     yield parameter("track.gauge", "Track gauge", unit="m", **taken(GAUGE))
     yield parameter(
@@ -179,7 +173,9 @@ def parameters(inclination: float) -> Iterable[Variable]:
         minimum=0.0,
         maximum=0.1,
     )
-    yield parameter("patches.surface", "Surface of each patch", enumeration=solver.SURFACE, start="Plane")
+    yield parameter(
+        "patches.surface", "Surface of each patch", enumeration=solver.SURFACE, start="Plane", member="case.conformal"
+    )
     yield parameter(
         "patches.max",
         "Greatest number of patches with their own plane; further patches share the plane of the last",
@@ -187,6 +183,7 @@ def parameters(inclination: float) -> Iterable[Variable]:
         start=PATCHES,
         minimum=1,
         maximum=PATCHES,
+        member="motion.most_patches",
     )
     yield parameter(
         "patches.combine_distance",
@@ -194,12 +191,14 @@ def parameters(inclination: float) -> Iterable[Variable]:
         unit="m",
         **taken(COMBINE_DISTANCE),
         nominal=1e-2,
+        member="motion.combine_distance",
     )
     yield parameter(
         "patches.combine_angle",
         "Neighbouring patches whose contact angles differ by less than this share one plane",
         unit="rad",
         **taken(COMBINE_ANGLE),
+        member="motion.combine_angle",
     )
     yield from solver.parameters()
     yield parameter(
@@ -220,34 +219,47 @@ def parameters(inclination: float) -> Iterable[Variable]:
         maximum=1.0,
     )
     yield parameter(
-        "accumulation.width", "Width of a bin", unit="m", start=1e-3, minimum=1e-5, maximum=1e-2, nominal=1e-3
+        "accumulation.width",
+        "Width of a bin",
+        unit="m",
+        start=1e-3,
+        minimum=1e-5,
+        maximum=1e-2,
+        nominal=1e-3,
+        member="ledger.width",
     )
     for axis, way in (("y", "Lateral"), ("z", "Vertical")):
         yield parameter(
             f"rail.k{axis}",
             f"{way} stiffness of the springs under this rail, which has no mass; 0 is rigid",
             unit="N/m",
-            start=0.0,
-            minimum=0.0,
             nominal=1e7,
+            **of("elastic_rail", f"k{axis}"),
         )
     for axis, way in (("y", "Lateral"), ("z", "Vertical")):
         yield parameter(
-            f"rail.preload_{axis}", f"{way} external force on the rail on springs", unit="N", start=0.0, nominal=1e3
+            f"rail.preload_{axis}",
+            f"{way} external force on the rail on springs",
+            unit="N",
+            nominal=1e3,
+            **of("elastic_rail", f"preload_{axis}"),
         )
     yield parameter(
         "reference_speed",
         "Speed below which creepages refer to it; there a wheel resists sliding like a damper, so an axle can stop and stand",
         unit="m/s",
         **taken(REFERENCE_SPEED),
+        member="motion.slowest",
     )
 
 
 def inputs() -> Iterable[Variable]:
     """Yield the inputs, which the FMU `WheelRailSurfaces` has too, as the outputs."""
-    for name, unit, description in MOTION:
+    for (name, unit, description), member in zip(MOTION, GIVEN.names or (), strict=True):
         used = {"load.kind": ("Position",)} if name == "pose.z" else {}
-        yield signal(name, description, unit=unit, start=_STARTS.get(name, 0.0), used=used, **_LIMITS.get(name, {}))
+        given = of("given", member)
+        given["start"] = _STARTS.get(name, given["start"])
+        yield signal(name, description, unit=unit, nominal=10.0 if name == "velocity.x" else None, used=used, **given)
     yield signal(
         "load.normal_force",
         "Vertical force on the wheel; load.kind says whether friction carries a part of it; not used with Position; "
@@ -258,57 +270,82 @@ def inputs() -> Iterable[Variable]:
         nominal=1e5,
         used={"load.kind": ("NormalForce", "VerticalForce")},
     )
-    yield signal("friction.coefficient", "Coefficient of friction", start=0.3, minimum=0.0, maximum=friction.LARGEST)
-    for name, unit, description in OFFSET:
-        yield signal(name, description, unit=unit, start=0.0, **_LIMITS.get(name, {}))
+    yield signal("friction.coefficient", "Coefficient of friction", **of("case", "mu"))
+    for (name, unit, description), member in zip(OFFSET, WHEEL_OFFSET.names or (), strict=True):
+        yield signal(name, description, unit=unit, **of("wheel_offset", member))
 
 
 def outputs() -> Iterable[Variable]:
     """Yield the outputs. Those that accumulate come last."""
     for axis in "xyz":
-        yield output(f"force.{axis}", f"Force on the wheel, track coordinates, {axis}", unit="N", nominal=1e4)
+        yield output(
+            f"force.{axis}",
+            f"Force on the wheel, track coordinates, {axis}",
+            unit="N",
+            nominal=1e4,
+            member=f"total.F{axis}",
+        )
     for axis in "xyz":
         yield output(
             f"moment.{axis}",
             f"Moment on the wheel about the wheelset's centre (0, pose.y, wheelset.z - wheel.radius), {axis}",
             unit="N.m",
             nominal=1e4,
+            member=f"total.M{axis}",
         )
     yield output(
-        "wheelset.z", "Height pose.z of the solution: as given, or as found for the load", unit="m", nominal=1e-3
+        "wheelset.z",
+        "Height pose.z of the solution: as given, or as found for the load",
+        unit="m",
+        nominal=1e-3,
+        member="total.z",
     )
-    yield output("pressure.max", "Greatest contact pressure", unit="Pa", minimum=0.0, nominal=1e9)
-    yield output("patches.count", "Number of patches", integer=True, minimum=0, maximum=PATCHES)
-    yield output("patches.area", "Contact area of all patches", unit="m2", minimum=0.0, nominal=1e-4)
-    for name, unit, nominal, description in PATCH:
-        yield output(f"patch[].{name}", description, unit=unit, nominal=nominal, shape=(PATCHES,))
+    yield output("pressure.max", "Greatest contact pressure", unit="Pa", minimum=0.0, nominal=1e9, member="total.pmax")
+    yield output(
+        "patches.count", "Number of patches", integer=True, minimum=0, maximum=PATCHES, member="total.n_patches"
+    )
+    yield output(
+        "patches.area", "Contact area of all patches", unit="m2", minimum=0.0, nominal=1e-4, member="total.area"
+    )
+    for (name, unit, nominal, description), of_contact in zip(PATCH, CONTACT.names or (), strict=False):
+        yield output(
+            f"patch[].{name}", description, unit=unit, nominal=nominal, shape=(PATCHES,), member=f"contact.{of_contact}"
+        )
     yield output("slip.ratio", "Slip area over contact area", minimum=0.0, maximum=1.0)
     yield output("power.friction", "Frictional power", unit="W", minimum=0.0, nominal=1e3)
-    yield from solver.damage()
-    yield from solver.status_and_totals()
+    yield from solver.damage("total")
+    yield from solver.status_and_totals("total", "velocity.x")
+    yield solver.total("distance", "Distance rolled since start, forwards and backwards", "m", (None, "velocity.x"))
+    yield solver.total("T_gamma", "Wear number times distance since start", "J", ("damage.T_gamma", "velocity.x"))
+    yield solver.gap_error("total")
     yield output(
-        "total.distance",
-        "Distance rolled since start, forwards and backwards",
-        unit="m",
-        start=0.0,
-        minimum=0.0,
-        depends=(),
+        "wheel.Q", "Vertical force of the wheel on the rail, positive down", unit="N", nominal=1e5, member="total.Q"
     )
     yield output(
-        "total.T_gamma", "Wear number times distance since start", unit="J", start=0.0, minimum=0.0, depends=()
+        "wheel.Y",
+        "Lateral force of the wheel on the rail, positive outwards: flange contact",
+        unit="N",
+        nominal=1e4,
+        member="total.Y",
     )
-    yield solver.gap_error()
-    yield output("wheel.Q", "Vertical force of the wheel on the rail, positive down", unit="N", nominal=1e5)
     yield output(
-        "wheel.Y", "Lateral force of the wheel on the rail, positive outwards: flange contact", unit="N", nominal=1e4
+        "wheel.Y_over_Q", "wheel.Y over wheel.Q; 0 without vertical force", nominal=0.1, member="total.Y_over_Q"
     )
-    yield output("wheel.Y_over_Q", "wheel.Y over wheel.Q; 0 without vertical force", nominal=0.1)
-    yield output("used_friction", "Sum of the creep forces of all patches over that of the normal forces", nominal=0.1)
+    yield output(
+        "used_friction",
+        "Sum of the creep forces of all patches over that of the normal forces",
+        nominal=0.1,
+        member="total.used_friction",
+    )
     for axis, way in (("y", "Lateral"), ("z", "Vertical")):
         yield output(
-            f"rail.deflection_{axis}", f"{way} deflection of the rail on springs, in balance", unit="m", nominal=1e-3
+            f"rail.deflection_{axis}",
+            f"{way} deflection of the rail on springs, in balance",
+            unit="m",
+            nominal=1e-3,
+            member=f"elastic_rail.d{axis}",
         )
-    yield solver.bend()
+    yield solver.bend("total")
     yield from _accumulated()
 
 

@@ -6,8 +6,9 @@ from collections.abc import Iterable
 from dataclasses import replace
 from functools import cache
 
-from contact.geometry.surfaces.pair import REACHES, SAMPLES
-from ..variables import Enumeration, Table, Variable, parameter, signal
+from contact.geometry.surfaces.pair import SAMPLES
+from contact.inputs.options import MEMBERS, REACH
+from ..variables import Enumeration, Table, Variable, parameter, signal, taken
 from . import wheel_rail_pair as pair
 
 #: Rows of the pair that surfaces do not have. The resource of the rail has its place, and slices have no bins.
@@ -28,7 +29,6 @@ FRAME = Enumeration(
         ),
     ),
 )
-_REACH = 0.06  # default of `SurfacePair`
 
 
 @cache
@@ -53,12 +53,11 @@ def _parameters() -> Iterable[Variable]:
         "surfaces.reach",
         "Distance before and behind the axle that is searched, doubled as long as the bodies come closer at its ends",
         unit="m",
-        start=_REACH,
-        minimum=REACHES[0],
-        maximum=REACHES[1],
+        **taken(REACH),
         nominal=0.1,
+        member="motion.reach",
     )
-    yield parameter("surfaces.frame", "Frame of a patch", enumeration=FRAME, start="AboutX")
+    yield parameter("surfaces.frame", "Frame of a patch", enumeration=FRAME, start="AboutX", member="motion.tilted")
 
 
 def _inputs() -> Iterable[Variable]:
@@ -72,15 +71,11 @@ def _place() -> Iterable[Variable]:
         "pose.station",
         "Position of the axle along the slices of the rail",
         unit="m",
-        start=0.0,
-        minimum=-1e7,
-        maximum=1e7,
+        **taken(MEMBERS["pair_input"]["station"]),
     )
     yield signal(
         "pose.rotation",
         "Angle by which the wheel has turned about the axle, negative when rolling forward; the integral of velocity.spin",
         unit="rad",
-        start=0.0,
-        minimum=-1e8,
-        maximum=1e8,
+        **taken(MEMBERS["pair_input"]["rotation"]),
     )
