@@ -10,7 +10,7 @@ from contact import Status, registry
 from contact.inputs.material import THERMAL_RANGE, Thermal
 from contact.inputs.options import HOT_FACTOR, N_ELEMENTS, N_STRIPS, TEMPERATURE, TEMPERATURE_RANGE
 from contact.results import BEND
-from ..variables import Enumeration, Variable, of, output, parameter, taken
+from ..variables import Attributes, Enumeration, Variable, of, output, parameter, taken
 
 NORMAL_METHOD = Enumeration("NormalMethod", tuple((m.name, m.title) for m in contact.methods().batched.normal.values()))
 TANGENTIAL_METHOD = Enumeration(
@@ -195,14 +195,7 @@ def _parameters() -> Iterable[Variable]:
         ),
         ("background_temperature", TEMPERATURE, "", "Mean temperature of wheel and rail outside the patch"),
     ):
-        yield parameter(
-            f"friction.{name}",
-            description,
-            unit="K",
-            **taken(option),
-            nominal=100.0,
-            member=member,
-        )
+        yield parameter(f"friction.{name}", description, unit="K", **taken(option), nominal=100.0, member=member)
     low, high = THERMAL_RANGE
     for name, unit, description in (
         ("conductivity", "W/(m.K)", "Thermal conductivity of wheel and rail"),
@@ -227,61 +220,38 @@ def _parameters() -> Iterable[Variable]:
     )
 
 
+#: Name and member of each damage, its description and attributes.
+_DAMAGE: tuple[tuple[str, str, str, Attributes], ...] = (
+    ("T_gamma", "T_gamma", "Wear number |Fx ξ| + |Fy η|", {"unit": "N", "minimum": 0.0, "nominal": 100.0}),
+    (
+        *("wear_rate_pearce_sherratt", "pearce_sherratt", "Tread area worn off, Pearce and Sherratt"),
+        {"unit": "m2/m", "minimum": 0.0},
+    ),
+    ("index_burstow", "burstow", "Rolling contact fatigue index per axle pass, Burstow", {}),
+    (
+        *("wear_rate_usfd", "usfd", "Volume worn off a unit of contact area, Sheffield"),
+        {"unit": "m/m", "minimum": 0.0, "nominal": 1e-8},
+    ),
+    (
+        *("archard_depth_max", "archard_depth", "Greatest wear depth, Archard"),
+        {"unit": "m/m", "minimum": 0.0, "nominal": 1e-10},
+    ),
+    (
+        "archard_volume",
+        "archard_volume",
+        "Volume worn off, Archard",
+        {"unit": "m3/m", "minimum": 0.0, "nominal": 1e-12},
+    ),
+    ("fatigue_index_surface", "fatigue_index", "Surface fatigue index, Ekberg", {}),
+    ("stress_index_max", "stress_index", "Greatest stress index |q| - k", {"unit": "Pa", "nominal": 1e8}),
+    ("energy_index_max", "energy_index", "Greatest energy index q.w", {"unit": "Pa", "nominal": 1e6}),
+)
+
+
 def damage(record: str) -> Iterable[Variable]:
     """Yield the outputs of the damage models, members of the record DAMAGE or TOTAL."""
-    yield output(
-        "damage.T_gamma",
-        "Wear number |Fx ξ| + |Fy η|",
-        unit="N",
-        minimum=0.0,
-        nominal=100.0,
-        member=f"{record}.T_gamma",
-    )
-    yield output(
-        "damage.wear_rate_pearce_sherratt",
-        "Tread area worn off, Pearce and Sherratt",
-        unit="m2/m",
-        minimum=0.0,
-        member=f"{record}.pearce_sherratt",
-    )
-    yield output(
-        "damage.index_burstow", "Rolling contact fatigue index per axle pass, Burstow", member=f"{record}.burstow"
-    )
-    yield output(
-        "damage.wear_rate_usfd",
-        "Volume worn off a unit of contact area, Sheffield",
-        unit="m/m",
-        minimum=0.0,
-        nominal=1e-8,
-        member=f"{record}.usfd",
-    )
-    yield output(
-        "damage.archard_depth_max",
-        "Greatest wear depth, Archard",
-        unit="m/m",
-        minimum=0.0,
-        nominal=1e-10,
-        member=f"{record}.archard_depth",
-    )
-    yield output(
-        "damage.archard_volume",
-        "Volume worn off, Archard",
-        unit="m3/m",
-        minimum=0.0,
-        nominal=1e-12,
-        member=f"{record}.archard_volume",
-    )
-    yield output("damage.fatigue_index_surface", "Surface fatigue index, Ekberg", member=f"{record}.fatigue_index")
-    yield output(
-        "damage.stress_index_max",
-        "Greatest stress index |q| - k",
-        unit="Pa",
-        nominal=1e8,
-        member=f"{record}.stress_index",
-    )
-    yield output(
-        "damage.energy_index_max", "Greatest energy index q.w", unit="Pa", nominal=1e6, member=f"{record}.energy_index"
-    )
+    for name, member, description, attributes in _DAMAGE:
+        yield replace(output(f"damage.{name}", description, **attributes), member=f"{record}.{member}")
 
 
 def status_and_totals(record: str, speed: str) -> Iterable[Variable]:

@@ -165,11 +165,7 @@ def _inputs(points: int) -> Iterable[Variable]:
         ("spin", "phi", "Spin creepage", "rad/m", 0.1),
     ):
         yield signal(
-            f"creepage.{name}",
-            f"{description}, wheel minus rail",
-            unit=unit,
-            nominal=nominal,
-            **of("case", of_case),
+            f"creepage.{name}", f"{description}, wheel minus rail", unit=unit, nominal=nominal, **of("case", of_case)
         )
     yield signal(
         "load.normal_force",
