@@ -161,12 +161,11 @@ class _FilePair(TransientPair):
     def _solution(self, patches: Sequence[SurfacePatch], at: Instant) -> PairSolution:
         """Return the solution of patches as CONTACT separates them: beyond D_SEP each counts for itself, and fully."""
         limit = self.case["D_SEP"]
-        if not bodies.is_roller(self.case) and self.case.digits["T"] not in (1, 2):
-            search = Search(self.pair, self._pose, self.outlines, self.case)
-            patches = [search.patch(patch) for patch in patches]
         kept = [p for p in patches if p.share == 1.0 or not lobes.reaches_over(p.gap, p.approach, limit)]
         alone = [replace(p, share=1.0) for p in kept]
-        if not self.conformal:
+        if not bodies.is_roller(self.case) and self.case.digits["T"] not in (1, 2):
+            alone = Search(self.pair, self._pose, self.outlines, self.case).patches(alone)
+        elif not self.conformal:
             alone = lobes.turned(alone, self.pair, (limit, self.case["D_TURN"], self.case["A_SEP"]))
         return super()._solution(alone, at)
 

@@ -10,7 +10,9 @@ of the surfaces, and at the edge of a flat the elements see another pressure.
 
 from __future__ import annotations
 
+import itertools
 import math
+from collections.abc import Sequence
 from dataclasses import replace
 from typing import NamedTuple
 
@@ -39,16 +41,26 @@ _LENGTH, _LONG, _SMALL, _ALONG = 0.125, 0.242, 0.0305, 1.5
 _ACROSS, _STEEP, _LOCUS = 0.75, 0.3, 0.3
 #: [m] by which the search looks beyond a patch; least weight of a place [m²].
 _BEYOND, _LEAST = 3e-3, 1e-16
+_ABSENT = 1e-3  # [m] by which elements without a rail lie above the highest other one
 
 
 class Found(NamedTuple):
-    """Where CONTACT puts a patch: x and track y of the reference point, contact angle, and the ranges of x and y [m]."""
+    """Where CONTACT puts a patch.
 
-    x: float
-    y: float
+    Attributes
+    ----------
+    at : reference point in the track, on the rail [m]
+    angle : contact angle [rad]
+    weight : of the overlap, for means over patches
+    along : range of x [m]
+    ends : places (y, z) on the rail where the overlap begins and ends across, shape (2, 2) [m]
+    """
+
+    at: Array
     angle: float
+    weight: float
     along: tuple[float, float]
-    across: tuple[float, float]
+    ends: Array
 
 
 class Search:
@@ -60,45 +72,48 @@ class Search:
         self.on_mesh = case["SEARCH"] in (5, 6, 9)
         self.steps: tuple[float, float] = case["DX"], case["DS"]
 
-    def patch(self, patch: SurfacePatch) -> SurfacePatch:
-        """Return a patch where CONTACT puts it, on its elements; as it is where this search misses it."""
+    def patches(self, patches: Sequence[SurfacePatch]) -> list[SurfacePatch]:
+        """Return patches where CONTACT puts them, on its elements, without those that its search does not see."""
+        seen = [(patch, found) for patch in patches if (found := self._found(patch)) is not None]
+        limits = self.case["D_SEP"], self.case["D_TURN"], self.case["A_SEP"]
+        angles = turned([found for _, found in seen], limits)
+        placed = (
+            self._placed(patch, found._replace(angle=angle)) for (patch, found), angle in zip(seen, angles, strict=True)
+        )
+        return [patch for patch in placed if patch is not None]
+
+    def _found(self, patch: SurfacePatch) -> Found | None:
+        """Return where the search puts a patch; None if it misses it."""
         mirror = 1.0 if self.pair.side == "right" else -1.0
         seen = patch.frame if mirror > 0.0 else patch.frame.mirrored
         inside = (patch.gap.h < patch.approach).any(axis=1)
         rows = mirror * patch.gap.y[inside] * seen.axes[1, 1]
         view = Frame.turned(seen.origin * [0.0, 1.0, 1.0], 0.0)
         box = float(rows.min()) - _BEYOND, float(rows.max()) + _BEYOND
-        columns = seen.origin[0] + patch.gap.x[[0, -1]]
         if self.wheel is None or self.on_mesh:
-            found = self._brute(view, box, columns)
-        else:
-            found = self._locus(self.wheel, view, box)
-        if found is None:
-            return patch
-        frame = self._frame(view, found)
-        there = np.array(found.across) + view.origin[1] - frame.origin[1]
-        ends = self._heights(Frame(frame.origin, np.eye(3)), there)
-        across = there * frame.axes[1, 1] + ends * frame.axes[1, 2]
-        if not np.isfinite(across).all():
-            return patch
-        x, y = (
-            np.arange(math.floor(low / step) - 1, math.ceil(high / step) + 2) * step
-            for (low, high), step in zip((np.array(found.along) - found.x, np.sort(across)), self.steps, strict=True)
-        )
-        h = within(self.pair.distance)(frame, x, y)
-        if not h.min() < 0.0:
-            return patch
-        present = h < AWAY
-        return self._placed(patch, frame, Gap(x, y, np.where(present, h, h[present].max() + 1e-3)))
+            return self._brute(view, box, seen.origin[0] + patch.gap.x[[0, -1]])
+        return self._locus(self.wheel, view, box)
 
     def _heights(self, frame: Frame, y: Array) -> Array:
         """Return the heights of the rail over the axis x = 0 of a frame [m]."""
         return self.rail.heights(frame, np.zeros(1), y)[:, 0]
 
-    def _frame(self, view: Frame, found: Found) -> Frame:
-        over = Frame(np.array([found.x, *view.origin[1:]]), view.axes)
-        z = float(self._heights(over, np.array([found.y]))[0])
-        return Frame.turned(over.origin + np.array([0.0, found.y, z]), found.angle)
+    def _finished(
+        self,
+        view: Frame,
+        at: tuple[float, float],
+        angle: float,
+        weight: float,
+        along: tuple[float, float],
+        across: Array,
+    ) -> Found | None:
+        """Return what was found from places of a view; None where the rail ends."""
+        over = Frame(np.array([at[0], *view.origin[1:]]), view.axes)
+        z = self._heights(over, np.array([at[1], *across]))
+        if not np.isfinite(z).all():
+            return None
+        ends = np.stack((across, z[1:]), axis=1) + view.origin[1:]
+        return Found(over.origin + np.array([0.0, at[1], z[0]]), angle, weight, along, ends)
 
     def _brute(self, view: Frame, box: tuple[float, float], columns: Array) -> Found | None:
         """Return where a patch lies whose y in a view is in a box, by a mesh of the wheel; None if the mesh misses it."""
@@ -121,16 +136,11 @@ class Search:
         weight = np.where(touching, np.maximum(self._weight(depth), _LEAST), 0.0)
         k, i = np.flatnonzero(touching.any(axis=0)), np.flatnonzero(touching.any(axis=1))
         along = float(x[max(k[0] - 1, 0)]), float(x[min(k[-1] + 1, x.size - 1)])
-        across = float(y[max(i[0] - 1, 0)]), float(y[min(i[-1] + 1, y.size - 1)])
+        across = y[[max(i[0] - 1, 0), min(i[-1] + 1, y.size - 1)]]
         slopes = np.nan_to_num(self.rail.slopes(view, y))
         total, by_row = float(weight.sum()), weight.sum(axis=1)
-        return Found(
-            float((weight.sum(axis=0) * x).sum()) / total,
-            float((by_row * y).sum()) / total,
-            float((by_row * slopes).sum()) / total,
-            along,
-            across,
-        )
+        at = float((weight.sum(axis=0) * x).sum()) / total, float((by_row * y).sum()) / total
+        return self._finished(view, at, float((by_row * slopes).sum()) / total, total, along, across)
 
     def _weight(self, depth: Array) -> Array:
         return np.asarray(depth if self.case.digits["WEIGHTING"] == 1 else depth**2)
@@ -157,23 +167,32 @@ class Search:
         touching = depth > 0.0
         if not touching.any():
             return None
+        i = np.flatnonzero(touching)
+        across = np.array([_zero(y, depth, i[0] - 1, i[0]), _zero(y, depth, i[-1] + 1, i[-1])])
         at, depth = np.where(touching, at, 0.0), np.where(touching, depth, 0.0)
         # the integral over x of the depth, or of its square, of a parabola
         half = np.sqrt(depth / curvature)
         power = 1.0 if self.case.digits["WEIGHTING"] == 1 else 2.0
         weight = depth**power * half
         total = float(weight.sum())
-        i = np.flatnonzero(touching)
-        return Found(
-            float((weight * at).sum()) / total,
-            float((weight * y).sum()) / total,
-            float((weight * np.nan_to_num(self.rail.slopes(view, y))).sum()) / total,
-            (float((at - half)[touching].min()), float((at + half)[touching].max())),
-            (float(y[max(i[0] - 1, 0)]), float(y[min(i[-1] + 1, y.size - 1)])),
-        )
+        slopes = np.nan_to_num(self.rail.slopes(view, y))
+        mean = float((weight * at).sum()) / total, float((weight * y).sum()) / total
+        along = float((at - half)[touching].min()), float((at + half)[touching].max())
+        return self._finished(view, mean, float((weight * slopes).sum()) / total, total, along, across)
 
-    def _placed(self, patch: SurfacePatch, frame: Frame, gap: Gap) -> SurfacePatch:
-        """Return a patch with the distance `gap` over a frame."""
+    def _placed(self, patch: SurfacePatch, found: Found) -> SurfacePatch | None:
+        """Return a patch on CONTACT's elements where it was found; None without overlap."""
+        frame = Frame.turned(found.at, found.angle)
+        across = np.sort((found.ends - frame.origin[1:]) @ frame.axes[1, 1:])
+        x, y = (
+            np.arange(math.floor(low / step) - 1, math.ceil(high / step) + 2) * step
+            for (low, high), step in zip((np.array(found.along) - found.at[0], across), self.steps, strict=True)
+        )
+        h = within(self.pair.distance)(frame, x, y)
+        if not h.min() < 0.0:
+            return None
+        present = h < AWAY
+        gap = Gap(x, y, np.where(present, h, h[present].max() + _ABSENT))
         approach, right = -float(gap.h.min()), self.pair.side == "right"
         h = gap.h + approach
         seen = frame if right else frame.mirrored
@@ -201,3 +220,32 @@ def _multiples(first: float, step: float, box: tuple[float, float]) -> Array:
     """Return the places in a box that lie at multiples of a step from the first one."""
     k = np.arange(math.ceil((box[0] - first) / step), math.floor((box[1] - first) / step) + 1, dtype=np.float64)
     return first + step * k
+
+
+def _zero(y: Array, depth: Array, outside: int, inside: int) -> float:
+    """Return where the line between two rows is 0 [m]."""
+    if not 0 <= outside < y.size:
+        return float(y[inside])
+    t = depth[inside] / (depth[inside] - depth[outside])
+    return float(y[inside] + t * (y[outside] - y[inside]))
+
+
+def turned(found: Sequence[Found], limits: tuple[float, float, float]) -> list[float]:
+    """Return the angles of patches, turned towards each other as CONTACT turns those that lie near each other.
+
+    From the distance D_TURN to D_SEP [m] the angles of neighbours go from their own to their common mean. `limits` are D_SEP,
+    D_TURN and A_SEP; angles that differ by more than A_SEP [rad] are kept.
+    """
+    apart, near, steepest = limits
+    angles = [one.angle for one in found]
+    order = sorted(range(len(found)), key=lambda k: float(found[k].at[1]))
+    for a, b in itertools.pairwise(order):
+        one, other = found[a], found[b]
+        distance = float(np.linalg.norm(one.ends[1] - other.ends[0]))
+        if near <= apart or not apart <= distance <= near or abs(one.angle - other.angle) > steepest:
+            continue
+        mean = (one.angle * one.weight + other.angle * other.weight) / (one.weight + other.weight)
+        share = (near - distance) / (near - apart)
+        angles[a] += share * (mean - one.angle)
+        angles[b] += share * (mean - other.angle)
+    return angles
