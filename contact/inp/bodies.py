@@ -18,7 +18,7 @@ from contact.geometry.surfaces import RailSurface, SurfacePair, WheelSurface
 from contact.geometry.wheelset import TAPE_FROM_FLANGE_BACK, Pair, place_of_rail
 from contact.inp.case import Case
 from contact.inp.grid import material
-from contact.inp.outline import Outline, Outlines
+from contact.inp.outline import Outline, Outlines, kinks
 from contact.inp.reasons import RefusedError, refuse
 from contact.kernels.records import LARGEST_RAIL_ROLL
 
@@ -42,11 +42,11 @@ def pair(case: Case) -> SurfacePair:
     else:
         raise refuse(case, "input", "GAUGHT > 0 with slices of a rail; allowed: GAUGHT ≤ 0")
     if isinstance(wheel, Profile):
-        wheel = WheelSurface([0.0], [wheel], spacing=_PATHS, name=wheel.name)
+        wheel = WheelSurface([0.0], [_slice(wheel)], spacing=_PATHS, name=wheel.name)
     if is_roller(case):
         rail = RailSurface.roller(roller(case), case["NOMRADR"], spacing=_PATHS)
     elif isinstance(rail, Profile):
-        rail = RailSurface([0.0], [_rolled(rail, case)], spacing=_PATHS, name=rail.name)
+        rail = RailSurface([0.0], [_slice(_rolled(rail, case))], spacing=_PATHS, name=rail.name)
     return SurfacePair(
         cast(WheelSurface, wheel),
         cast(RailSurface, rail),
@@ -58,6 +58,12 @@ def pair(case: Case) -> SurfacePair:
         spacing=(case["DX"], case["DS"]),
         material=material(case),
     )
+
+
+def _slice(profile: Profile) -> Profile | Array:
+    """Return a profile as a slice; one with kinks as points, of which the slice makes corners."""
+    points = np.stack((profile.y, profile.z), axis=1)
+    return points if kinks(points) else profile
 
 
 def profiles(case: Case) -> Pair | None:

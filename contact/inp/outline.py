@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import math
 from typing import NamedTuple
 
@@ -15,13 +16,16 @@ from contact.geometry.surfaces.frame import Frame
 from contact.geometry.surfaces.spline import slopes
 from contact.inp.nodes import MISSED, REST, STEPS
 
+_KINK = math.radians(30.0)
+
 
 class Outline(NamedTuple):
-    """A profile as a spline through its points over the chord length [m]."""
+    """A profile as splines through its points over the chord length [m], which break at kinks."""
 
     s: Array
     points: Array
-    rates: Array
+    starts: Array
+    ends: Array
 
     @classmethod
     def of(cls, profile: Profile) -> Outline:
@@ -32,17 +36,26 @@ class Outline(NamedTuple):
     def through(cls, points: Array) -> Outline:
         """Return the outline through points (y, z), shape (n, 2) [m]."""
         s = np.concatenate(([0.0], np.cumsum(np.hypot(*np.diff(points, axis=0).T))))
-        return cls(s, points, slopes(s, points))
+        starts, ends = np.empty((s.size - 1, 2)), np.empty((s.size - 1, 2))
+        for low, high in itertools.pairwise([0, *kinks(points), s.size - 1]):
+            rates = slopes(s[low : high + 1], points[low : high + 1])
+            starts[low:high], ends[low:high] = rates[:-1], rates[1:]
+        return cls(s, points, starts, ends)
+
+    @property
+    def rates(self) -> Array:
+        """Derivatives at the points; at a kink those behind it."""
+        return np.concatenate((self.starts, self.ends[-1:]))
 
     def at(self, s: Array) -> tuple[Array, Array]:
         """Return (y, z) at the lengths `s`, and their derivatives, each of shape (2, ...)."""
         k = np.clip(np.searchsorted(self.s, s, side="right") - 1, 0, self.s.size - 2)
         h = self.s[k + 1] - self.s[k]
-        t, f, m = ((s - self.s[k]) / h)[..., None], self.points, self.rates
+        t, f, m, w = ((s - self.s[k]) / h)[..., None], self.points, self.starts[k], self.ends[k]
         h = h[..., None]
         rise = f[k + 1] - f[k]
-        a, b = h * (m[k] + m[k + 1]) - 2.0 * rise, 3.0 * rise - h * (2.0 * m[k] + m[k + 1])
-        place, rate = f[k] + t * (h * m[k] + t * (b + t * a)), m[k] + t * (2.0 * b + 3.0 * t * a) / h
+        a, b = h * (m + w) - 2.0 * rise, 3.0 * rise - h * (2.0 * m + w)
+        place, rate = f[k] + t * (h * m + t * (b + t * a)), m + t * (2.0 * b + 3.0 * t * a) / h
         return np.moveaxis(place, -1, 0), np.moveaxis(rate, -1, 0)
 
     def length(self, y: float, z: float) -> float:
@@ -61,6 +74,13 @@ class Outlines(NamedTuple):
 
     wheel: Outline | None
     rail: Outline | None
+
+
+def kinks(points: Array) -> list[int]:
+    """Return the inner points (y, z) at which the chords turn by more than 30 degrees."""
+    steps = np.diff(points, axis=0)
+    turn = np.abs(np.diff(np.unwrap(np.arctan2(steps[:, 1], steps[:, 0]))))
+    return (np.flatnonzero(turn > _KINK) + 1).tolist()
 
 
 def over(rail: Outline, y: Array, frame: Frame, place: tuple[float, float, float]) -> tuple[Array, Array]:
