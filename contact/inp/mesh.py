@@ -20,12 +20,10 @@ from contact.geometry.surfaces import SurfacePair, SurfacePatch
 from contact.geometry.surfaces.frame import Frame
 from contact.geometry.surfaces.slices import SliceCurve
 from contact.halfspace import Gap
-from contact.halfspace.lattice import CurvedGap
 from contact.inp.nodes import MISSED, REST, STEPS, bilinear, solved
 from contact.inp.outline import Outline, Outlines, standing
 from contact.inp.rail import Rail
 from contact.inp.sliced import distance as sliced_distance
-from contact.pair.curved import Elements
 
 #: Points of a spline for each point of a profile.
 _FINE = 20
@@ -63,25 +61,16 @@ def flattened(patch: SurfacePatch, pair: SurfacePair, pose: Pose, bodies: Outlin
     return with_distance(patch, mesh.distance(pair, bodies.rail, frame, x, y, before)[order])
 
 
-def flattened_rows(
-    rows: Elements, patch: SurfacePatch, pair: SurfacePair, pose: Pose, bodies: Outlines, step: float
-) -> Elements:
-    """Return elements on a curved surface with CONTACT's distance; not under slices.
+def distance(pair: SurfacePair, pose: Pose, bodies: Outlines, frame: Frame, x: Array, y: Array, step: float) -> Array:
+    """Return CONTACT's distance between the rail and the mesh of a round wheel over rows `y` of a frame of the right side [m].
 
-    It is that of the plane below each row, along its normal, times the cosine of the angle of the row against it.
+    NaN where they do not reach. `step` is as for `flattened`.
     """
     if bodies.wheel is None:
-        return rows
-    right, gap = pair.side == "right", rows.gap
-    frame = patch.frame if right else patch.frame.mirrored
-    order = slice(None) if right else slice(None, None, -1)
-    cosine = 1.0 / np.hypot(1.0, gap.tilt)
-    x, y = np.meshgrid(gap.x, gap.place[order] if right else -gap.place[order])
-    mesh = _Mesh.of(pair, pose, bodies.wheel, frame, (gap.dx, step), (x[0, 0], y[0, 0]))
-    before = (gap.h - rows.approach) / cosine[:, None]
-    h = mesh.distance(pair, bodies.rail, frame, x, y, before[order])[order] * cosine[:, None]
-    approach = -float(h.min())
-    return rows._replace(gap=CurvedGap(gap.x, gap.y, h + approach, gap.place, gap.tilt), approach=approach)
+        return np.full((y.size, x.size), np.nan)
+    mesh = _Mesh.of(pair, pose, bodies.wheel, frame, (float(x[1] - x[0]), step), (float(x[0]), float(y[0])))
+    grid_x, grid_y = np.meshgrid(x, y)
+    return mesh.distance(pair, bodies.rail, frame, grid_x, grid_y, np.full(grid_x.shape, np.nan))
 
 
 def cornered(patch: SurfacePatch, side: str, roller: Profile) -> SurfacePatch:

@@ -19,11 +19,11 @@ from contact.given_force import rising_root
 from contact.halfspace import GridSolution, Normal
 from contact.halfspace.lattice import Lattice
 from contact.halfspace.parts import norm_of_parts
-from contact.inp import approximate, bodies, fast, lobes, pressed, single
+from contact.inp import approximate, bent, bodies, fast, lobes, pressed, single
 from contact.inp.case import Case
 from contact.inp.grid import material
 from contact.inp.laws import of_strips
-from contact.inp.mesh import cornered, flattened, flattened_rows
+from contact.inp.mesh import cornered, flattened
 from contact.inp.outline import Outlines, to_track
 from contact.inp.reasons import refuse, require_digits
 from contact.inp.results import PatchResult, Result
@@ -197,10 +197,8 @@ class _FilePair(TransientPair):
         return replace(found, status=Status.NOT_CONVERGED) if best[0] > _MISSED * vertical else found
 
     def _true(self, patch: SurfacePatch) -> Elements:
-        rows = super()._true(patch)
-        if not self.conformal:
-            return rows
-        return flattened_rows(rows, patch, self.pair, self._pose, self.outlines, self.case["DS"])
+        rows = bent.elements(self.pair, patch, self._pose, self.outlines, self.case["DS"]) if self.conformal else None
+        return super()._true(patch) if rows is None else rows
 
     def _pull(self, found: PairSolution) -> float:
         return float(to_track(self.case["ROLL"], self.case["YAW"])[:, 0] @ np.asarray(found.force))
