@@ -45,7 +45,7 @@ def elements(pair: SurfacePair, patch: SurfacePatch, pose: Pose, bodies: Outline
     if rows.size < 2:
         return None
     s, y, tilt = s[rows], middle[rows, 0], tilt[rows]
-    h = distance(pair, pose, bodies, frame, gap.x, y, step)
+    h = distance(pair, pose, bodies, frame, gap.x, y, s, step)
     cosine, there = np.cos(tilt), np.isfinite(h)
     if not there.any():
         return None

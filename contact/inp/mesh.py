@@ -61,14 +61,16 @@ def flattened(patch: SurfacePatch, pair: SurfacePair, pose: Pose, bodies: Outlin
     return with_distance(patch, mesh.distance(pair, bodies.rail, frame, x, y, before)[order])
 
 
-def distance(pair: SurfacePair, pose: Pose, bodies: Outlines, frame: Frame, x: Array, y: Array, step: float) -> Array:
+def distance(
+    pair: SurfacePair, pose: Pose, bodies: Outlines, frame: Frame, x: Array, y: Array, s: Array, step: float
+) -> Array:
     """Return CONTACT's distance between the rail and the mesh of a round wheel over rows `y` of a frame of the right side [m].
 
-    NaN where they do not reach. `step` is as for `flattened`.
+    NaN where they do not reach. `s` are the lengths of the rows along the profile, `step` is as for `flattened`.
     """
     if bodies.wheel is None:
         return np.full((y.size, x.size), np.nan)
-    mesh = _Mesh.of(pair, pose, bodies.wheel, frame, (float(x[1] - x[0]), step), (float(x[0]), float(y[0])))
+    mesh = _Mesh.of(pair, pose, bodies.wheel, frame, (float(x[1] - x[0]), step), (float(x[0]), float(s[0])))
     grid_x, grid_y = np.meshgrid(x, y)
     return mesh.distance(pair, bodies.rail, frame, grid_x, grid_y, np.full(grid_x.shape, np.nan))
 

@@ -10,6 +10,7 @@ from typing import Any
 
 import numpy as np
 
+from contact.arrays import Array
 from contact.errors import ContactError, require_number
 from contact.geometry.flexible import WheelOffset
 from contact.geometry.records import Pose, Velocity
@@ -199,6 +200,26 @@ class _FilePair(TransientPair):
     def _true(self, patch: SurfacePatch) -> Elements:
         rows = bent.elements(self.pair, patch, self._pose, self.outlines, self.case["DS"]) if self.conformal else None
         return super()._true(patch) if rows is None else rows
+
+    def _slip(self, rows: Elements, at: Instant) -> Array:
+        """Return the slip in the plane halfway between the directions in which both surfaces move, as CONTACT does."""
+        case, speed = self.case, abs(at.velocity.forward)
+        if case.digits["T"] == 1 or speed == 0.0:
+            return super()._slip(rows, at)
+        ahead, moving = np.array([self._moved[0], 0.0, 0.0]), self._moving(at)
+        back = -1.0 if at.velocity.forward < 0.0 else 1.0
+        wheel, rail = (
+            np.einsum("rai,rci->arc", rows.axes, body.at(place + ahead))
+            for body, place in ((moving.wheel, rows.on_wheel), (moving.rail, rows.on_rail))
+        )
+        stiffness = [case[f"GG{k}"] / (1.0 - case[f"POISS{k}"]) for k in (1, 2)]
+        share = stiffness[1] / sum(stiffness)
+        middle = share * rail + (1.0 - share) * wheel
+        # a roller moves under the contact, a rail with it
+        along, up = middle[0] - (0.0 if self.roller is not None else back * speed), middle[2]
+        slip = wheel - rail
+        x = -back * (slip[0] * along + slip[2] * up) / np.hypot(along, up)
+        return np.stack((x, slip[1]))
 
     def _pull(self, found: PairSolution) -> float:
         return float(to_track(self.case["ROLL"], self.case["YAW"])[:, 0] @ np.asarray(found.force))

@@ -87,7 +87,9 @@ class Search:
         mirror = 1.0 if self.pair.side == "right" else -1.0
         seen = patch.frame if mirror > 0.0 else patch.frame.mirrored
         inside = (patch.gap.h < patch.approach).any(axis=1)
-        rows = mirror * patch.gap.y[inside] * seen.axes[1, 1]
+        rows = np.sort(mirror * patch.gap.y[inside])
+        heights = np.nan_to_num(self._heights(seen, rows))
+        rows = rows * seen.axes[1, 1] + heights * seen.axes[2, 1]
         view = Frame.turned(seen.origin * [0.0, 1.0, 1.0], 0.0)
         box = float(rows.min()) - _BEYOND, float(rows.max()) + _BEYOND
         if self.wheel is None or self.on_mesh:
