@@ -28,13 +28,13 @@ _MIRROR = np.array([1.0, -1.0, 1.0])
 
 def elements(pair: SurfacePair, patch: SurfacePatch, pose: Pose, bodies: Outlines, step: float) -> Elements | None:
     """Return the elements of a patch; None if it has no rows. `step` is that of the wheel's mesh along its profile [m]."""
-    if bodies.wheel is None or bodies.rail is None:
+    if bodies.wheel is None or bodies.rail is None or bodies.roller is not None:
         return None
     left = pair.side == "left"
     frame = patch.frame.mirrored if left else patch.frame
     gap, dy = patch.gap, patch.gap.dy
     plane = -gap.y[::-1] if left else gap.y
-    rail = Rail(pair, bodies.rail)
+    rail = Rail(pair, bodies)
     s = plane[0] + dy * np.arange(-plane.size, 2 * plane.size, dtype=np.float64)
     of_rail, of_wheel = _on_rail(rail, bodies.rail, frame, s), _on_wheel(pair, pose, bodies.wheel, frame, s)
     middle, normal = 0.5 * (of_rail[0] + of_wheel[0]), 0.5 * (of_rail[1] + of_wheel[1])

@@ -84,12 +84,12 @@ def profiles(case: Case) -> Pair | None:
 
 
 def outlines(case: Case) -> Outlines:
-    """Return the outlines of wheel and rail; None for slices, and for a roller."""
+    """Return the outlines of wheel and rail."""
     wheel, rail = body(case, "W"), body(case, "R")
-    straight = isinstance(rail, Profile) and not is_roller(case)
     return Outlines(
         Outline.of(wheel) if isinstance(wheel, Profile) else None,
-        Outline.of(_rolled(cast(Profile, rail), case)) if straight else None,
+        Outline.of(_rolled(rail, case)) if isinstance(rail, Profile) else None,
+        case["NOMRADR"] if is_roller(case) else None,
     )
 
 

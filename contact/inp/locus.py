@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import itertools
+import math
 from typing import NamedTuple
 
 import numpy as np
@@ -21,6 +22,8 @@ _MOST, _REST, _STEP, _HALF, _SHARE = 150, 1e-6, 1e-5, 0.5, 0.7
 _REACH, _BRACKET, _CURVED = 0.5, 0.6, 0.1
 #: The spline of the locus breaks where x times the share turns by more than this angle [rad] over y.
 _SHARE_OF_X, _KINK = 0.1, 0.1 * np.pi
+#: Steps of the locus on a roller.
+_ROLLER_STEPS = 3
 #: [m] by which the locus reaches beyond the range that is asked for.
 _BESIDE = 2e-3
 
@@ -41,7 +44,10 @@ def locus(pair: SurfacePair, pose: Pose, wheel: Outline, rail: Rail, view: Frame
     near = (in_view > y[0] - _BESIDE) & (in_view < y[-1] + _BESIDE) & (np.abs(rate_y) > 1e-3)
     points = _Points(across[near], z[near], (rate_z / np.where(np.abs(rate_y) > 1e-3, rate_y, 1.0))[near])
     placed = _Placed(points, pair.nominal_radius, axes, to)
-    if rail.straight:
+    if rail.roller is not None:
+        at = placed.at(_on_roller(placed, rail, view))
+        height = rail.at(view, at[:, 0], at[None, :, 1])[0]
+    elif rail.straight:
         # where the wheel is lowest along the rail
         r = placed.radius + points.z
         x = placed.bounded((r * points.slope * axes[0, 1] - placed.radius * axes[0, 2]) / axes[0, 0])
@@ -54,7 +60,7 @@ def locus(pair: SurfacePair, pose: Pose, wheel: Outline, rail: Rail, view: Frame
     order = order[np.isfinite(height[order])]
     found = np.stack((at[order, 0], at[order, 2] - height[order]), axis=1)
     x_there, depth = _between(at[order, 1], found, y).T
-    if rail.straight:
+    if rail.straight and rail.roller is None:
         depth = depth - rail.heights(view, np.zeros(1), y)[:, 0]
     return Locus(x_there, np.nan_to_num(depth))
 
@@ -111,6 +117,23 @@ def _nearest(placed: _Placed, rail: Rail, view: Frame, bracket: tuple[Array, Arr
         x = new
         if change < _REST:
             break
+    return x
+
+
+def _on_roller(placed: _Placed, rail: Rail, view: Frame) -> Array:
+    """Return x of the points at which they are nearest to a roller, by three steps of CONTACT's."""
+    axes, roller = placed.axes, float(rail.roller or math.inf)
+    a = (placed.radius + placed.points.z) * placed.points.slope
+    x = np.zeros_like(a)
+    for _ in range(_ROLLER_STEPS):
+        at = placed.at(x)
+        ahead = view.origin[0] + at[:, 0]
+        crown = rail.at(view, np.full_like(ahead, -view.origin[0]), at[None, :, 1])[0]
+        rise = ahead / (roller - crown - view.origin[2])
+        height = np.sqrt((placed.radius + placed.points.z) ** 2 - x**2)
+        down = x * axes[2, 0] - a * axes[2, 1] + height * axes[2, 2]
+        across = a * axes[0, 1] - height * axes[0, 2]
+        x = placed.bounded(np.nan_to_num((down * (x / roller - rise) + across) / (axes[0, 0] + down / roller)))
     return x
 
 

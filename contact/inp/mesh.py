@@ -15,12 +15,10 @@ import numpy as np
 
 from contact.arrays import Array
 from contact.geometry.records import Pose
-from contact.geometry.shape import Profile
 from contact.geometry.surfaces import SurfacePair, SurfacePatch
 from contact.geometry.surfaces.frame import Frame
-from contact.geometry.surfaces.slices import SliceCurve
 from contact.halfspace import Gap
-from contact.inp.nodes import MISSED, REST, STEPS, bilinear, solved
+from contact.inp.nodes import REST, STEPS, bilinear, solved
 from contact.inp.outline import Outline, Outlines, standing
 from contact.inp.rail import Rail
 from contact.inp.sliced import distance as sliced_distance
@@ -54,11 +52,11 @@ def flattened(patch: SurfacePatch, pair: SurfacePair, pose: Pose, bodies: Outlin
     order = slice(None) if right else slice(None, None, -1)
     across, before = gap.y if right else -gap.y[order], (gap.h - patch.approach)[order]
     if bodies.wheel is None:
-        h = sliced_distance(pair, pose, Rail(pair, bodies.rail), frame, gap.x, across)
+        h = sliced_distance(pair, pose, Rail(pair, bodies), frame, gap.x, across)
         return with_distance(patch, np.where(np.isfinite(h), h, before)[order])
     x, y = np.meshgrid(gap.x, across)
     mesh = _Mesh.of(pair, pose, bodies.wheel, frame, (gap.dx, step), (x[0, 0], y[0, 0]))
-    return with_distance(patch, mesh.distance(pair, bodies.rail, frame, x, y, before)[order])
+    return with_distance(patch, mesh.distance(pair, bodies, frame, x, y, before)[order])
 
 
 def distance(
@@ -72,25 +70,7 @@ def distance(
         return np.full((y.size, x.size), np.nan)
     mesh = _Mesh.of(pair, pose, bodies.wheel, frame, (float(x[1] - x[0]), step), (float(x[0]), float(s[0])))
     grid_x, grid_y = np.meshgrid(x, y)
-    return mesh.distance(pair, bodies.rail, frame, grid_x, grid_y, np.full(grid_x.shape, np.nan))
-
-
-def cornered(patch: SurfacePatch, side: str, roller: Profile) -> SurfacePatch:
-    """Return a patch with CONTACT's roller, which is made of cones between the points of its profile.
-
-    `roller` is the profile in its right-side form, as the pair has it.
-    """
-    mirror = 1.0 if side == "right" else -1.0
-    cosine = math.cos(patch.angle)
-    across = patch.on_rail[0] + mirror * patch.gap.y * cosine
-    exact = SliceCurve(roller, "roller")
-    exact.connect(np.empty(0))
-    fine = exact.at(np.linspace(0.0, exact.length, _FINE * roller.y.size))
-    rising = np.concatenate(([True], np.diff(np.maximum.accumulate(fine[0])) > 0.0))
-    points = np.concatenate(([True], np.diff(np.maximum.accumulate(roller.y)) > 0.0))
-    chord = np.interp(across, roller.y[points], roller.z[points]) - np.interp(across, *fine[:, rising])
-    h = patch.gap.h - patch.approach + cosine * chord[:, None]
-    return with_distance(patch, h)
+    return mesh.distance(pair, bodies, frame, grid_x, grid_y, np.full(grid_x.shape, np.nan))
 
 
 def _rest(at: float, step: float) -> float:
@@ -114,8 +94,8 @@ class _Placed(NamedTuple):
         points = np.stack(np.broadcast_arrays(u, y, np.sqrt((self.radius + z) ** 2 - u**2) - self.radius), axis=-1)
         return np.asarray((points @ self.turn.T + (self.origin - self.frame.origin)) @ self.frame.axes.T)
 
-    def under(self, x: Array, y: Array, start: tuple[float, float]) -> tuple[Array, Array, Array]:
-        """Return s and u of the points of the wheel at the places x, y of the frame, and their heights, NaN where missed."""
+    def under(self, x: Array, y: Array, start: tuple[float, float]) -> tuple[Array, Array]:
+        """Return s and u of the points of the wheel at the places x, y of the frame, or near them where it has none."""
         s, u = start[0] + y, start[1] + x
         axes = (self.frame.axes @ self.turn)[:2]
         for _ in range(STEPS):
@@ -128,8 +108,7 @@ class _Placed(NamedTuple):
                 break
             step_s, step_u = solved(by_s, by_u, miss)
             s, u = np.clip(s + np.clip(step_s, -2e-3, 2e-3), 0.0, self.wheel.s[-1]), u + np.clip(step_u, -2e-3, 2e-3)
-        z = self.heights(s, u)[..., 2]
-        return s, u, np.where(np.abs(miss).max(axis=0) < MISSED, z, np.nan)
+        return s, u
 
 
 class _Mesh(NamedTuple):
@@ -164,20 +143,15 @@ class _Mesh(NamedTuple):
         )
         return cls(wheel, pair.nominal_radius, turn, origin, reference, steps)
 
-    def distance(
-        self, pair: SurfacePair, rail: Outline | None, frame: Frame, x: Array, y: Array, before: Array
-    ) -> Array:
+    def distance(self, pair: SurfacePair, bodies: Outlines, frame: Frame, x: Array, y: Array, before: Array) -> Array:
         """Return the distance of the rail from the mesh along the normal of a frame [m], `before` where they do not reach."""
         placed = _Placed(self.wheel, self.radius, frame, self.turn, self.origin)
         (s0, u0), (dx, step) = self.reference, self.steps
-        s, u, z = placed.under(x, y, self.reference)
+        s, u = placed.under(x, y, self.reference)
         i, j = (s - s0) / step, (u - u0) / dx
         rows, columns = (math.ceil(float(np.abs(k).max())) + 2 for k in (i, j))
         along, around = np.arange(-rows, rows + 1.0)[:, None], np.arange(-columns, columns + 1.0)
         nodes = placed.heights(s0 + step * along, u0 + dx * around)
         flat = bilinear(nodes, x, y, i + rows, j + columns)
-        if rail is None and pair.rail.roller_radius is not None:
-            h = before + z - flat
-        else:
-            h = Rail(pair, rail).heights(frame, x[0], y[:, 0]) - flat
+        h = Rail(pair, bodies).ground(frame, x[0], y[:, 0]) - flat
         return np.where(np.isfinite(h), h, before)

@@ -70,10 +70,11 @@ class Outline(NamedTuple):
 
 
 class Outlines(NamedTuple):
-    """Outlines of a wheel of revolution and of a straight rail; None for bodies with slices, and for a roller."""
+    """Outlines of a wheel of revolution and of a straight rail, or of a roller of a radius [m]; None for bodies with slices."""
 
     wheel: Outline | None
     rail: Outline | None
+    roller: float | None = None
 
 
 def kinks(points: Array) -> list[int]:

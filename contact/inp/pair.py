@@ -14,7 +14,6 @@ from contact.arrays import Array
 from contact.errors import ContactError, require_number
 from contact.geometry.flexible import WheelOffset
 from contact.geometry.records import Pose, Velocity
-from contact.geometry.shape import Profile
 from contact.geometry.surfaces import SurfacePatch
 from contact.given_force import rising_root
 from contact.halfspace import GridSolution, Normal
@@ -24,7 +23,7 @@ from contact.inp import approximate, bent, bodies, fast, lobes, pressed, single
 from contact.inp.case import Case
 from contact.inp.grid import material
 from contact.inp.laws import of_strips
-from contact.inp.mesh import cornered, flattened
+from contact.inp.mesh import flattened
 from contact.inp.outline import Outlines, to_track
 from contact.inp.reasons import refuse, require_digits
 from contact.inp.results import PatchResult, Result
@@ -91,7 +90,6 @@ class _FilePair(TransientPair):
 
     case: Case
     outlines: Outlines
-    roller: Profile | None = None  # profile of the roller
 
     def take(self, case: Case) -> None:
         """Take what is given besides the motion."""
@@ -140,8 +138,6 @@ class _FilePair(TransientPair):
     def _solved(self, patch: SurfacePatch, at: Instant) -> Solved:
         if not self.conformal:
             patch = flattened(patch, self.pair, self._pose, self.outlines, self.case["DS"])
-        if self.roller is not None and not self.conformal:
-            patch = cornered(patch, self.pair.side, self.roller)
         if not (self.case.digits["M"] in pressed.SIMPLIFIED and self.case.digits["T"]):
             return super()._solved(patch, at)
         if self._backwards(patch, at):
@@ -164,7 +160,7 @@ class _FilePair(TransientPair):
         limit = self.case["D_SEP"]
         kept = [p for p in patches if p.share == 1.0 or not lobes.reaches_over(p.gap, p.approach, limit)]
         alone = [replace(p, share=1.0) for p in kept]
-        if not bodies.is_roller(self.case) and self.case.digits["T"] not in (1, 2):
+        if self.case.digits["T"] not in (1, 2):
             alone = Search(self.pair, self._pose, self.outlines, self.case).patches(alone)
         elif not self.conformal:
             alone = lobes.turned(alone, self.pair, (limit, self.case["D_TURN"], self.case["A_SEP"]))
@@ -216,7 +212,7 @@ class _FilePair(TransientPair):
         share = stiffness[1] / sum(stiffness)
         middle = share * rail + (1.0 - share) * wheel
         # a roller moves under the contact, a rail with it
-        along, up = middle[0] - (0.0 if self.roller is not None else back * speed), middle[2]
+        along, up = middle[0] - (0.0 if self.outlines.roller is not None else back * speed), middle[2]
         slip = wheel - rail
         x = -back * (slip[0] * along + slip[2] * up) / np.hypot(along, up)
         return np.stack((x, slip[1]))
@@ -268,7 +264,7 @@ class PairRunner:
             raise refuse(case, "strips", f"VS = {forward:g} m/s")
         given: dict[str, Any] = {"irregularity": bodies.irregularity(case)}
         if not self._fast or bodies.has_slices(case):
-            given |= {"station": case["X_WS" if roller else "S_WS"], "rotation": case["PITCH"]}
+            given |= {"station": 0.0 if roller else case["S_WS"], "rotation": case["PITCH"]}  # X_WS has no effect
         if any(case.get(name) for name in _OFFSET):
             given["offset"] = _offset(case)
         if digits["N"] == 1:
@@ -322,8 +318,6 @@ class PairRunner:
                 made = bodies.pair(case)
                 self._pair = _FilePair(made)
                 self._pair.outlines = bodies.outlines(case)
-                if bodies.is_roller(case):
-                    self._pair.roller = bodies.roller(case)
                 if isinstance(last, _FilePair) and last.pair.division.spacing == made.division.spacing:
                     self._pair.restore(last.state)
             self._key = key

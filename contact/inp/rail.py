@@ -13,17 +13,17 @@ from contact.geometry.surfaces import SurfacePair
 from contact.geometry.surfaces.frame import Frame
 from contact.geometry.surfaces.spline import slopes
 from contact.inp.nodes import MISSED, REST, STEPS
-from contact.inp.outline import Outline, across, in_frame, over
+from contact.inp.outline import Outline, Outlines, across, in_frame, over
 
 #: Number of nodes of a cross-section on each side of a range that its spline needs, and steps of Newton's iterations in nodes.
 _BESIDE, _STEP = 24, 4.0
 
 
 class Rail:
-    """A straight rail with an `outline`, or the rail with slices of a pair. All in right-side form."""
+    """A straight rail with an outline, a roller, or the rail with slices of a pair. All in right-side form."""
 
-    def __init__(self, pair: SurfacePair, outline: Outline | None) -> None:
-        self._pair, self._outline = pair, outline
+    def __init__(self, pair: SurfacePair, bodies: Outlines) -> None:
+        self._pair, self._outline, self.roller = pair, bodies.rail, bodies.roller
         motion = pair.space.motion[0]
         self._station = float(motion.station)
         self.place = float(motion.rail_y), float(motion.rail_z), float(motion.rail_roll)
@@ -42,15 +42,19 @@ class Rail:
         return Outline.through(points[np.isfinite(points[:, 0])])
 
     def heights(self, frame: Frame, x: Array, y: Array) -> Array:
-        """Return the height over the places of a grid in a frame turned about x only, (y, x) [m]; NaN beyond the rail."""
+        """Return the height over the places of a grid in a frame turned about x only, (y, x) [m]; NaN beyond the rail.
+
+        A roller is bent down along x only where the frame is not turned.
+        """
         if self._outline is not None:
-            return np.asarray(np.broadcast_to(over(self._outline, y, frame, self.place)[0][:, None], (y.size, x.size)))
+            height = over(self._outline, y, frame, self.place)[0][:, None]
+            return self.bent(frame, x, np.broadcast_to(height, (y.size, x.size)))
         return self.at(frame, x, np.broadcast_to(y[:, None], (y.size, x.size)))
 
     def at(self, frame: Frame, x: Array, y: Array) -> Array:
         """Return the height over places of a frame: column k of `y` at x[k] [m]. NaN beyond the rail."""
         if self._outline is not None:
-            return over(self._outline, y.ravel(), frame, self.place)[0].reshape(y.shape)
+            return self.bent(frame, x, over(self._outline, y.ravel(), frame, self.place)[0].reshape(y.shape))
         out = np.full(y.shape, np.nan)
         turn, to = in_frame(frame, self.place)
         axes = frame.axes[1:, 1:] @ turn
@@ -63,6 +67,30 @@ class Rail:
                 points = np.einsum("ab,bcp->pca", axes, f[:, columns][:, :, paths]) + to
                 out[:, columns] = _Sections.of(points, y[:, columns]).heights(y[:, columns])
         return out
+
+    def ground(self, frame: Frame, x: Array, y: Array) -> Array:
+        """Return the height over a grid as CONTACT has it for the distance: its roller is made of cones between its points."""
+        if self.roller is None or self._outline is None:
+            return self.heights(frame, x, y)
+        turn, _ = in_frame(frame, self.place)
+        points = self._outline.points @ turn.T + np.array(self.place[:2])
+        ahead = frame.origin[0] + x
+        z = self.roller - np.sqrt((self.roller - points[:, 1, None]) ** 2 - ahead**2)  # (point, x)
+        away = np.stack((np.broadcast_to(points[:, :1], z.shape), z)) - frame.origin[1:, None, None]
+        across, height = np.einsum("ab,bpx->apx", frame.axes[1:, 1:], away)
+        first = int(np.hypot(across, height)[:, x.size // 2].argmin())
+        out = np.empty((y.size, x.size))
+        for k in range(x.size):
+            low, high = _rising(across[:, k], first)
+            out[:, k] = np.interp(y, across[low:high, k], height[low:high, k], left=np.nan, right=np.nan)
+        return out
+
+    def bent(self, frame: Frame, x: Array, height: Array) -> Array:
+        """Return heights at x = 0 of the track lowered to those of a roller at `x` [m]."""
+        if self.roller is None or frame.axes[2, 2] != 1.0:
+            return height
+        r = self.roller - (height + frame.origin[2])
+        return np.asarray(self.roller - np.sqrt(r**2 - (frame.origin[0] + x) ** 2) - frame.origin[2])
 
     def across(self, frame: Frame, x: Array) -> Array:
         """Return the places across a frame of the nodes of the cross-sections at `x`, (x, path) [m]; NaN where absent."""
@@ -78,6 +106,13 @@ class Rail:
     def first(self, frame: Frame, k: int) -> float:
         """Return the place across a frame of point `k` of the outline at x = 0 [m]."""
         return float(across(self.here, frame, self.place)[k])
+
+
+def _rising(across: Array, first: int) -> tuple[int, int]:
+    """Return the range of points around one in which the places across increase."""
+    steps = np.diff(across) > 0.0
+    before, behind = np.flatnonzero(~steps[:first]), np.flatnonzero(~steps[first:])
+    return (int(before[-1]) + 1 if before.size else 0), (first + int(behind[0]) + 1 if behind.size else across.size)
 
 
 class _Sections(NamedTuple):

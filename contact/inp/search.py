@@ -68,7 +68,7 @@ class Search:
 
     def __init__(self, pair: SurfacePair, pose: Pose, bodies: Outlines, case: Case) -> None:
         self.pair, self.pose, self.wheel, self.case = pair, pose, bodies.wheel, case
-        self.rail = Rail(pair, bodies.rail)
+        self.rail = Rail(pair, bodies)
         self.on_mesh = case["SEARCH"] in (5, 6, 9)
         self.steps: tuple[float, float] = case["DX"], case["DS"]
 
@@ -163,6 +163,8 @@ class Search:
     def _locus(self, wheel: Outline, view: Frame, box: tuple[float, float]) -> Found | None:
         """Return where a patch lies by the least distance at each y; the wheel's curvature stands for that along the track."""
         step, curvature = _LOCUS * self.steps[1], 0.5 / self.pair.nominal_radius
+        if self.rail.roller is not None:
+            curvature += 0.5 / self.rail.roller
         first = self.rail.first(view, 0)
         y = _multiples(first, step, box)
         at, depth = locus(self.pair, self.pose, wheel, self.rail, view, y)
