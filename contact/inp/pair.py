@@ -160,11 +160,7 @@ class _FilePair(TransientPair):
         limit = self.case["D_SEP"]
         kept = [p for p in patches if p.share == 1.0 or not lobes.reaches_over(p.gap, p.approach, limit)]
         alone = [replace(p, share=1.0) for p in kept]
-        if self.case.digits["T"] not in (1, 2):
-            alone = Search(self.pair, self._pose, self.outlines, self.case).patches(alone)
-        elif not self.conformal:
-            alone = lobes.turned(alone, self.pair, (limit, self.case["D_TURN"], self.case["A_SEP"]))
-        return super()._solution(alone, at)
+        return super()._solution(Search(self.pair, self._pose, self.outlines, self.case).patches(alone), at)
 
     def _under(self, vertical: float, at: Instant) -> PairSolution:
         """Return the solution under a vertical force, from whole solutions at heights, of which few are needed.

@@ -23,6 +23,7 @@ from contact.geometry.records import Pose
 from contact.geometry.surfaces import SurfacePair, SurfacePatch
 from contact.geometry.surfaces.frame import Frame
 from contact.halfspace import Gap
+from contact.halfspace.lattice import Lattice
 from contact.inp.case import Case
 from contact.inp.locus import locus
 from contact.inp.nodes import bilinear
@@ -188,21 +189,21 @@ class Search:
         """Return a patch on CONTACT's elements where it was found; None without overlap."""
         frame = Frame.turned(found.at, found.angle)
         across = np.sort((found.ends - frame.origin[1:]) @ frame.axes[1, 1:])
-        x, y = (
-            np.arange(math.floor(low / step) - 1, math.ceil(high / step) + 2) * step
-            for (low, high), step in zip((np.array(found.along) - found.at[0], across), self.steps, strict=True)
-        )
+        (back, front), (dx, ds) = np.array(found.along) - found.at[0], self.steps
+        box = float(back) - dx, float(front) + dx, float(across[0]) - ds, float(across[1]) + ds
+        division = self._division(found)
+        x, y = division.centres(box)
         h = within(self.pair.distance)(frame, x, y)
+        far = division.clear(box, x, y, h, AWAY)
         if not h.min() < 0.0:
             return None
         present = h < AWAY
-        gap = Gap(x, y, np.where(present, h, h[present].max() + _ABSENT))
+        gap = Gap(x, y, np.where(present, h, AWAY if far else h[present].max() + _ABSENT))
         approach, right = -float(gap.h.min()), self.pair.side == "right"
         h = gap.h + approach
         seen = frame if right else frame.mirrored
         place = seen.origin + approach * seen.axes[2]
-        rail_y, rail_z, roll = self.rail.place
-        y, z = frame.origin[1] - rail_y, frame.origin[2] - rail_z
+        on_rail = self._on_rail(found)
         turn, origin = standing(self.pair, self.pose)
         local = turn.T @ (frame.origin + approach * frame.axes[2] - origin)
         radius = math.hypot(local[0], local[2] + self.pair.nominal_radius)
@@ -214,10 +215,24 @@ class Search:
             angle=frame.turn[0] if right else -frame.turn[0],
             position=(float(seen.origin[0]), float(seen.origin[1]), float(seen.origin[2])),
             wheel_position=(float(place[0]), float(place[1]), float(place[2])),
-            on_rail=(y * math.cos(roll) + z * math.sin(roll), z * math.cos(roll) - y * math.sin(roll)),
+            on_rail=on_rail,
             on_wheel=(float(local[1]), radius - self.pair.nominal_radius),
             rolling_radius=radius,
         )
+
+    def _division(self, found: Found) -> Lattice:
+        """Return the elements: in steps those of the last one, else with one at the reference point."""
+        division = self.pair.division
+        if not isinstance(division, Lattice) or self.case.digits["T"] not in (1, 2):
+            return Lattice.centred(self.steps)
+        station = float(self.pair.space.motion[0].station)
+        return division.placed(station + float(found.at[0]), self._on_rail(found)[0])
+
+    def _on_rail(self, found: Found) -> tuple[float, float]:
+        """Return the reference point in the rail's profile [m]."""
+        rail_y, rail_z, roll = self.rail.place
+        y, z = found.at[1] - rail_y, found.at[2] - rail_z
+        return y * math.cos(roll) + z * math.sin(roll), z * math.cos(roll) - y * math.sin(roll)
 
 
 def _multiples(first: float, step: float, box: tuple[float, float]) -> Array:

@@ -92,3 +92,46 @@ def test_linear_weights_move_the_reference_point_and_not_the_force(solved):
     squared, linear = solved(), solved(second="11")
     assert abs(linear["YCP(TR)"] - squared["YCP(TR)"]) > 1e-5
     assert linear["FN"] == pytest.approx(squared["FN"], rel=3e-3)
+
+
+#: A wheel with a round profile of 10 mm in a groove, under 10 kN. Numbers from CONTACT 25.1 (its groove_r1010).
+GROOVE = """\
+ 1 MODULE
+ 1203100
+ 00{D}2033
+ 0001321
+   999 100 30 15 1e-6
+ .3 .3
+ .28 .28 82000. 82000.
+ .2 .25 1.0 90d 8.0 4.0
+ -1. 0. 0. 0.
+ 'groove.txt' 0 1.0 0.0 -1
+ 0 0 0 0 0 0
+ 0 0 420.
+ 'wheel.txt' 0 1.0 0.0 -1
+ 0 0 10000. 0 0 0
+ 420. 0 0 0 0 -1.0002
+ 0 MODULE
+"""
+
+
+@pytest.mark.parametrize(
+    ("D", "force", "pressure", "approach", "count"),
+    [(2, -682.747, 413.79921, 0.0192333, 715), (4, 588.489, 416.23666, 0.0191041, 745)],
+)
+def test_a_groove_in_a_flat_is_contacts_on_plane_and_curved_elements(tmp_path, D, force, pressure, approach, count):
+    """The groove has a radius of 10.1 mm and edges of nearly 90 degrees, at which its spline breaks. Six decimals are given."""
+    across = np.arange(-10.1, 10.11, 0.1)
+    groove = np.sqrt(np.maximum(10.1**2 - across**2, 0.0)) - 10.1
+    flat = np.arange(10.2, 20.11, 0.1)
+    y = np.concatenate((-flat[::-1], across, flat))
+    z = np.concatenate((np.full(flat.size, -10.1), groove, np.full(flat.size, -10.1)))
+    np.savetxt(tmp_path / "groove.txt", np.stack((y, z), axis=1), fmt="%.6f")
+    y = np.arange(9.9, -9.91, -0.1)
+    np.savetxt(tmp_path / "wheel.txt", np.stack((y, np.sqrt(100.0 - y**2) - 10.0), axis=1), fmt="%.6f")
+    (tmp_path / "case.inp").write_text(GROOVE.format(D=D))
+    (patch,) = inp.solve(inp.read(tmp_path / "case.inp"))[0].patches
+    assert patch.values["FX"] == pytest.approx(force, abs=1e-4 * 1e4)
+    assert 1e-6 * patch.values["PMAX"] == pytest.approx(pressure, rel=1e-4)
+    assert 1e3 * patch.values["APPROACH"] == pytest.approx(approach, rel=1e-4)
+    assert patch.values["NCON"] == pytest.approx(count, abs=2)

@@ -8,12 +8,10 @@ import pytest
 
 from contact import inp
 from contact.errors import ContactError
-from contact.geometry.records import Pose
-from contact.geometry.shape import Profile
-from contact.geometry.surfaces import SurfacePair
 from contact.halfspace import Gap, norm
 from contact.halfspace.parts import norm_of_parts
 from contact.inp import approximate, lobes
+from contact.inp.search import Found, turned
 from contact.inputs.material import STEEL
 from contact.theory.hertz import hertz
 from contact.theory.kalker import piecewise
@@ -169,27 +167,16 @@ def test_lobes_nearer_than_the_first_distance_are_one_patch():
     assert not lobes.reaches_over(two(6e-3), 3e-5, 7e-3)
 
 
-@pytest.mark.filterwarnings("ignore")
 def test_angles_of_near_patches_turn_towards_their_common_mean():
-    """Half way between both distances each has half its angle, where both are mirror images."""
-    y = np.linspace(-0.02, 0.02, 321)
-    wheel = Profile("wheel", y, -(y**2) / (2.0 * 0.1), name="round")
-    rail = Profile(
-        "rail", y, 40.0 * (np.abs(y) - 0.006) ** 2 + 0.01 * (np.abs(y) > 0.015) * (np.abs(y) - 0.015), name="two"
-    )
-    pair = SurfacePair(wheel, rail, rail_origin=(0.75, 0.0), spacing=2e-4, combine_distance=1e-3)
-    patches = pair.contacts(Pose(), penetration=2e-5)
-    assert len(patches) == 2
-    angles = [patch.angle for patch in patches]
-    assert angles[0] == pytest.approx(-angles[1], rel=1e-3)
-    assert abs(angles[0]) > 0.02
-    left, right = sorted(patches, key=lambda patch: patch.position[1])
-    low, high = lobes.lobes(left.gap, left.approach)[-1].high, lobes.lobes(right.gap, right.approach)[0].low
-    distance = right.position[1] + high - left.position[1] - low
-    turned = lobes.turned(patches, pair, (distance - 2e-3, distance + 2e-3, 1.57))
-    assert [patch.angle for patch in turned] == pytest.approx([0.5 * angle for angle in angles], rel=0.02)
-    for patch, before in zip(turned, patches, strict=True):
-        assert patch.frame.turn[0] == pytest.approx(patch.angle)
-        assert patch.approach == pytest.approx(before.approach, rel=0.01)
-    kept = lobes.turned(patches, pair, (1e-3, distance - 1e-3, 1.57)), lobes.turned(patches, pair, (1e-3, 1.0, 1e-3))
-    assert all([patch.angle for patch in each] == angles for each in kept)
+    """Half way between both distances each goes half of its way to the mean by weight."""
+
+    def patch(y, angle, weight):
+        return Found(
+            np.array([0.0, y, 0.0]), angle, weight, (-1e-3, 1e-3), np.array([[y - 1e-3, 0.0], [y + 1e-3, 0.0]])
+        )
+
+    pair = [patch(0.74, -0.3, 1.0), patch(0.75, -0.1, 3.0)]  # their ends are 8 mm apart
+    assert turned(pair, (6e-3, 10e-3, 1.57)) == pytest.approx([-0.225, -0.125])
+    assert turned(pair[::-1], (6e-3, 10e-3, 1.57)) == pytest.approx([-0.125, -0.225])
+    for limits in ((6e-3, 7e-3, 1.57), (9e-3, 12e-3, 1.57), (6e-3, 10e-3, 0.1)):
+        assert turned(pair, limits) == [-0.3, -0.1]
