@@ -26,6 +26,19 @@ def advance(curve: Array, n: int, j: int, y: float) -> int:
     return j
 
 
+@kernel
+def segment(curve: Array, first: int, n: int, y: float) -> int:
+    """Return what `advance` returns from node `first`, by bisection."""
+    low, high = first, n - 1
+    while high - low > 1:
+        middle = (low + high) // 2
+        if curve[Curve.Y, middle] <= y:
+            low = middle
+        else:
+            high = middle
+    return low
+
+
 @entry
 def at(curve: Matrix, j: int, y: float) -> tuple[float, float]:
     """Return value and slope of the curve at y in segment j.

@@ -9,7 +9,7 @@ import math
 
 from contact.core import kernel
 from contact.kernels.arrays import Search
-from contact.kernels.geometry.curve import Array, Record, advance, at
+from contact.kernels.geometry.curve import Array, Record, advance, at, segment
 from contact.kernels.geometry.plane import Frame, along, normal_gap, project, spread, track_slope
 from contact.kernels.geometry.search import axle, combine, join, lobes, on_wheel, shared, size_of, untie
 from contact.kernels.records import SLOWEST
@@ -80,7 +80,7 @@ def positions(motion: Record, frame: Frame, wheel: Array, n_wheel: int, patch: R
     point lies between two lobes, the wheel overlaps the rail less there.
     """
     y0, z0, c, s = frame
-    height, slope = at(wheel, advance(wheel, n_wheel, 0, 0.0), 0.0)
+    height, slope = at(wheel, segment(wheel, 0, n_wheel, 0.0), 0.0)
     y, z = y0 - height * s, z0 + height * c
     lx, ly, lz = axle(motion.roll, motion.yaw)
     py, pz = y - motion.y, z - motion.z + motion.radius
@@ -197,26 +197,24 @@ def describe(
     y0 = lobe.moment / lobe.weight
     angle = math.atan2(lobe.sine, lobe.cosine)
     n_placed = placed.shape[1]
-    centre = advance(placed, n_placed, 0, y0)
+    centre = segment(placed, 0, n_placed, y0)
     frame = (y0, at(placed, centre, y0)[0], math.cos(angle), math.sin(angle))
 
     # the edges of the interpenetration lie on both curves; the bounds between neighbours are points of the rail
-    i = advance(placed, n_placed, 0, lobe.low)
+    i = segment(placed, 0, n_placed, lobe.low)
     first = along(frame, lobe.low, at(placed, i, lobe.low)[0])
-    i = advance(placed, n_placed, i, lobe.high)
+    i = segment(placed, 0, n_placed, lobe.high)
     last = along(frame, lobe.high, at(placed, i, lobe.high)[0])
     margin = max(_MARGIN * size_of(motion), _MARGIN_SHARE * (last - first))
     low, high = first - margin, last + margin
     if grid.size > 0:
         low, high = min(low, grid[0]), max(high, grid[grid.size - 1])
     if before > -math.inf:
-        low = max(low, along(frame, before, at(placed, advance(placed, n_placed, 0, before), before)[0]))
+        low = max(low, along(frame, before, at(placed, segment(placed, 0, n_placed, before), before)[0]))
     if after < math.inf:
-        high = min(high, along(frame, after, at(placed, advance(placed, n_placed, 0, after), after)[0]))
+        high = min(high, along(frame, after, at(placed, segment(placed, 0, n_placed, after), after)[0]))
 
-    j = start
-    while j < end - 2 and line[Curve.Y, j + 1] <= y0:
-        j += 1
+    j = segment(line, start, end, y0)
     n_wheel, low, high = project(line, (first_node, line.shape[1], j), motion.z, frame, low, high, wheel)
     n_rail, low, high = project(placed, (0, n_placed, centre), 0.0, frame, low, high, rail)
     first, last = max(first, low), min(last, high)

@@ -48,20 +48,22 @@ def _walk(
     The search starts at node j and goes in the direction `ahead` (±1) up to `limit`. Where the curve turns away from
     the plane, the last u lies between two nodes, so that it moves smoothly with the frame.
     """
-    here = cosine(frame, curve[Curve.SLOPE, j])
+    c, s = frame[2], frame[3]
     while True:
         u = along(frame, curve[Curve.Y, j], curve[Curve.Z, j] + dz)
         if (u - limit) * ahead >= 0.0:
             return j, limit
         if not start <= j + ahead < end:
             return j, u
-        following = cosine(frame, curve[Curve.SLOPE, j + ahead])
-        if following < _STEEPEST:
+        slope = curve[Curve.SLOPE, j + ahead]
+        facing = c + slope * s  # over the cosine of the slope: without root and division at every node
+        if facing <= 0.0 or facing * facing < _STEEPEST * _STEEPEST * (1.0 + slope * slope):
+            here, following = cosine(frame, curve[Curve.SLOPE, j]), cosine(frame, slope)
             if following < 0.5 * _STEEPEST:  # a corner: interpolation to the next node has no meaning
                 return j, u
             beyond = along(frame, curve[Curve.Y, j + ahead], curve[Curve.Z, j + ahead] + dz)
             return j + ahead, u + (beyond - u) * (here - _STEEPEST) / (here - following)
-        j, here = j + ahead, following
+        j += ahead
 
 
 @kernel
