@@ -166,10 +166,6 @@ class TableSlave(Fmi2Slave):
         self._greatest = np.minimum([s.maximum for s in scalars], sys.float_info.max)
         self._choices = [(row.name, row.twin_of) for row in table.twins if row.is_given]
         self._doubts = Doubting(table)
-        self._members = {
-            of: table.members(of, given=False) for of in {row.member.partition(".")[0] for row in table.rows}
-        }
-        self._integrals = [(row.name, *row.integral_of) for row in table.rows if row.integral_of]
         self._mirrors = [(row.name, row.twin_of) for row in table.twins if not row.is_given]
 
     # ---------------------------------------------------------------- implemented by a model
@@ -194,21 +190,6 @@ class TableSlave(Fmi2Slave):
 
     def recall(self, memory: str | None) -> None:
         """Restore the state of the model from `memory`. The values are already restored."""
-
-    # ---------------------------------------------------------------- for models
-
-    def copied(self, record: str, member: Callable[[str], float | list[float]]) -> Rows:
-        """Return the outputs that are members of a record. `member` returns one by its name, of an array of patches a list."""
-        return {row: member(name) for row, name in self._members[record].items()}
-
-    def integrals(self, values: SlaveValues, new: Rows, step_size: float) -> Rows:
-        """Return the outputs that are integrated over time, after a step [s] with the outputs `new`."""
-        found: dict[str, float] = {}
-        for total, rate, speed in self._integrals:
-            per_second = 1.0 if speed is None else abs(values[speed])
-            per_second *= 1.0 if rate is None else new[rate]  # type: ignore[operator]
-            found[total] = values[total] + per_second * step_size
-        return found
 
     # ---------------------------------------------------------------- life of an instance
 

@@ -1,4 +1,4 @@
-"""pythonfmu slave of the FMU `WheelRailContact`, which calls `contact.solve`."""
+"""pythonfmu slave of the FMU `WheelRailContact`, which calls `contact.Solver`."""
 
 from __future__ import annotations
 
@@ -8,12 +8,12 @@ import numpy as np
 from pythonfmu.enums import Fmi2Status
 
 import contact
-from contact import Creepage, Separation, Solution, Status
+from contact import Creepage, Separation, Solution, Solver, Status
 from contact.damage.assessment import assess
 from contact.results.solution import RENAMED
 from ..differences import creepage_steps
 from ..tables.wheel_rail_contact import FLATTEST, table
-from .slave import TableSlave
+from .model import ModelSlave
 from .surface import friction, methods
 from .values import Rows, SlaveValues
 
@@ -21,7 +21,7 @@ _METHODS = contact.methods().tangential
 _CREEPAGES = ("creepage.longitudinal", "creepage.lateral", "creepage.spin")
 
 
-class WheelRailContactSlave(TableSlave):
+class WheelRailContactSlave(ModelSlave):
     """One wheel-rail contact in the plane of its separation. Forces act on the wheel."""
 
     lazy = ("creep_stiffness",)
@@ -31,7 +31,7 @@ class WheelRailContactSlave(TableSlave):
 
     def outputs(self, values: SlaveValues, step_size: float) -> Rows:
         """Solve for the present inputs, which are constant over the step."""
-        solution = _solve(values, _creepage(values))
+        solution = self._solve(values, _creepage(values))
         if solution.status in (Status.OUT_OF_RANGE, Status.NOT_CONVERGED) and solution.status != values["status"]:
             self.log(f"status {solution.status.name}: {solution.status.message}", Fmi2Status.warning)
         damage = assess(solution, values["wheel.radius"]).damage
@@ -53,30 +53,35 @@ class WheelRailContactSlave(TableSlave):
         for j, step in enumerate(creepage_steps(mu, values["force.n"], G, values["patch.area"])):
             moved = at.copy()
             moved[j] += step
-            stiffness[:, j] = (_resultants(_solve(values, Creepage(*moved))) - here) / (moved[j] - at[j])
+            stiffness[:, j] = (_resultants(self._solve(values, Creepage(*moved))) - here) / (moved[j] - at[j])
         return {"creep_stiffness": stiffness.ravel().tolist()}
+
+    def _solve(self, values: SlaveValues, creepage: Creepage) -> Solution:
+        """Solve the contact that `values` describe, with the given creepage."""
+        solver: Solver = self.made(values, _solver)
+        load_driven = values.item("load.kind") == "NormalForce"
+        return solver.solve(
+            _separation(values, _is_conformal(values)),
+            creepage,
+            load=max(values["load.normal_force"], 0.0) if load_driven else None,
+            approach=None if load_driven else values["load.approach"],
+            friction=friction(values),
+            speed=values["speed"],
+            throw=False,
+        )
+
+
+def _solver(values: SlaveValues, old: Solver | None) -> Solver:
+    fields = _METHODS[values.item("method.tangential")].fields
+    return Solver(**methods(values), conformal=_is_conformal(values) and fields)
 
 
 def _creepage(values: SlaveValues) -> Creepage:
     return Creepage(*(values[name] for name in _CREEPAGES))
 
 
-def _solve(values: SlaveValues, creepage: Creepage) -> Solution:
-    """Solve the contact that `values` describe, with the given creepage."""
-    fields, curved = _METHODS[values.item("method.tangential")].fields, values.item("geometry.kind") == "Curvatures"
-    conformal = not curved and values.item("geometry.surface") == "Conformal"
-    load_driven = values.item("load.kind") == "NormalForce"
-    return contact.solve(
-        _separation(values, conformal),
-        creepage,
-        load=max(values["load.normal_force"], 0.0) if load_driven else None,
-        approach=None if load_driven else values["load.approach"],
-        friction=friction(values),
-        speed=values["speed"],
-        **methods(values),
-        conformal=conformal and fields,
-        throw=False,
-    )
+def _is_conformal(values: SlaveValues) -> bool:
+    return values.item("geometry.kind") != "Curvatures" and values.item("geometry.surface") == "Conformal"
 
 
 def _separation(values: SlaveValues, conformal: bool) -> Separation:

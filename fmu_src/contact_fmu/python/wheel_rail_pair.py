@@ -19,27 +19,23 @@ from contact.instance import workspace
 from contact.pair import ElasticRail, WheelRailPair
 from .. import profiles
 from ..tables.wheel_rail_pair import ACCUMULATED, BINS, MOTION, OFFSET, PATCHES, table
-from ..variables import Causality
-from .slave import TableSlave
+from .model import ModelSlave
 from .surface import friction, methods
 from .values import Rows, SlaveValues
 
 _MOTION = [name for name, *_ in MOTION]
 
 
-class WheelRailPairSlave(TableSlave):
+class WheelRailPairSlave(ModelSlave):
     """One wheel on one rail. Each patch starts from its last solution if the normal method can use a warm start."""
 
     def __init__(self, inclination: float, guid: str, accumulation: bool = False, **kwargs: Any) -> None:
         super().__init__(table(inclination, accumulation), guid, **kwargs)
         self.profiles = [profiles.read(Path(self.resources), kind) for kind in ("wheel", "rail")]
-        self.parameters = [row.name for row in self.table.rows if row.causality is Causality.PARAMETER]
-        self.pair: WheelRailPair | None = None
-        self.built_with: list[float] = []
 
     def outputs(self, values: SlaveValues, step_size: float) -> Rows:
         """Solve for the present inputs, which are constant over the step. The first step is a cold start."""
-        pair = self._pair(values)
+        pair: WheelRailPair = self.made(values, self._pair)
         memory = pair.bench.memory
         before = memory.copy() if step_size > 0.0 else np.zeros_like(memory)
         memory[:] = before
@@ -81,47 +77,43 @@ class WheelRailPairSlave(TableSlave):
 
     def memory(self) -> str | None:
         """Return the warm start of the normal method, as text."""
-        return None if self.pair is None else self.pair.bench.memory.tobytes().hex()
+        return None if self.model is None else self.model.bench.memory.tobytes().hex()
 
     def recall(self, memory: str | None) -> None:
         """Restore the warm start from `memory`."""
         if memory is None:
-            self.pair = None
+            self.model = None
         else:
-            self._pair(self.values).bench.memory[:] = np.frombuffer(bytes.fromhex(memory))
+            self.made(self.values, self._pair).bench.memory[:] = np.frombuffer(bytes.fromhex(memory))
 
-    def _pair(self, values: SlaveValues) -> WheelRailPair:
-        """Return the pair with these parameters. If they have changed, it is made anew and gets the memory of the old one."""
-        wanted = [values[name] for name in self.parameters]
-        if self.pair is None or wanted != self.built_with:
-            old = self.pair
-            wheel, rail = self.profiles[0], self.profiles[1].rotated(-np.arctan(values["rail.inclination"]))
-            options = methods(values)
-            geometry = Pair(
-                wheel,
-                rail,
-                side="right" if values.item("side") == "Right" else "left",
-                nominal_radius=values["wheel.radius"],
-                gauge=values["track.gauge"],
-                flange_back=values["wheel.flange_back"],
-                gauge_point=values["track.gauge_point"],
-                combine_distance=values["patches.combine_distance"],
-                combine_angle=values["patches.combine_angle"],
-                most_patches=values["patches.max"],
-                samples=values["resolution.n_samples"],
-                material=options["material"],
-                reference_speed=values["reference_speed"],
-            )
-            self.pair = WheelRailPair(
-                geometry,
-                **options,
-                conformal=values.item("patches.surface") == "Conformal",
-                **_accumulation(values, wheel, rail),
-            )
-            if old is not None and old.bench.memory.size == self.pair.bench.memory.size:
-                self.pair.bench.memory[:] = old.bench.memory
-            self.built_with = wanted
-        return self.pair
+    def _pair(self, values: SlaveValues, old: WheelRailPair | None) -> WheelRailPair:
+        """Return the pair with these parameters. It gets the memory of the old one."""
+        wheel, rail = self.profiles[0], self.profiles[1].rotated(-np.arctan(values["rail.inclination"]))
+        options = methods(values)
+        geometry = Pair(
+            wheel,
+            rail,
+            side="right" if values.item("side") == "Right" else "left",
+            nominal_radius=values["wheel.radius"],
+            gauge=values["track.gauge"],
+            flange_back=values["wheel.flange_back"],
+            gauge_point=values["track.gauge_point"],
+            combine_distance=values["patches.combine_distance"],
+            combine_angle=values["patches.combine_angle"],
+            most_patches=values["patches.max"],
+            samples=values["resolution.n_samples"],
+            material=options["material"],
+            reference_speed=values["reference_speed"],
+        )
+        pair = WheelRailPair(
+            geometry,
+            **options,
+            conformal=values.item("patches.surface") == "Conformal",
+            **_accumulation(values, wheel, rail),
+        )
+        if old is not None and old.bench.memory.size == pair.bench.memory.size:
+            pair.bench.memory[:] = old.bench.memory
+        return pair
 
 
 def _carried(values: SlaveValues) -> dict[str, Any]:

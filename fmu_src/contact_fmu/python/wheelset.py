@@ -22,21 +22,19 @@ from contact_models.wheelset.ports import (
     SIDES,
 )
 from ..tables.wheelset import KEYWORDS, table
-from .slave import TableSlave
+from .model import ModelSlave
 from .values import Rows, SlaveValues
 
 
-class WheelsetSlave(TableSlave):
+class WheelsetSlave(ModelSlave):
     """One wheelset whose contact forces are inputs."""
 
     def __init__(self, guid: str, **kwargs: Any) -> None:
         super().__init__(table(), guid, **kwargs)
-        self.model: WheelsetModel | None = None
-        self.built_with: dict[str, Any] = {}
 
     def outputs(self, values: SlaveValues, step_size: float) -> Rows:
         """Advance the model with constant forces. With a step size of 0, return the outputs at the start."""
-        model = self._model(values)
+        model: WheelsetModel = self.made(values, _model)
         if step_size > 0.0:
             for side in SIDES:
                 model.set_forces(side, *(values[f"{side}.{name}"] for name in REACTION))
@@ -53,18 +51,14 @@ class WheelsetSlave(TableSlave):
         if memory is None:
             self.model = None
         else:
-            self._model(self.values).restore(bytes.fromhex(memory))
+            self.made(self.values, _model).restore(bytes.fromhex(memory))
 
-    def _model(self, values: SlaveValues) -> WheelsetModel:
-        """Return the model with these parameters. If they have changed, it is made anew and is at its start."""
-        wanted = {keyword: values[name] for name, keyword in KEYWORDS.items()}
-        wanted |= {"substeps": values["resolution.substeps"], "inclination": values["rail.inclination"]}
-        if self.model is None or wanted != self.built_with:
-            keywords = wanted.copy()
-            rail = profile.rail_60e1(keywords.pop("inclination"))
-            self.model = WheelsetModel(WheelsetParameters(rail=rail, **keywords))
-            self.built_with = wanted
-        return self.model
+
+def _model(values: SlaveValues, old: WheelsetModel | None) -> WheelsetModel:
+    """Return the model with these parameters, at its start."""
+    keywords = {keyword: values[name] for name, keyword in KEYWORDS.items()}
+    rail = profile.rail_60e1(values["rail.inclination"])
+    return WheelsetModel(WheelsetParameters(rail=rail, substeps=values["resolution.substeps"], **keywords))
 
 
 def _report(model: WheelsetModel) -> Rows:
