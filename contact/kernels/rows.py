@@ -236,7 +236,8 @@ class Vector(IntEnum):
     OFFSET_BEST = 38  # offset of the best iterate
     OFFSET_STEPS = 39  # first of DEPTH rows, as STEPS
     OFFSET_CHANGES = 42  # first of DEPTH rows, as CHANGES
-    PAIRS = 45  # first of the rows of `Pair`
+    LOCUS_OF_PANEL = 45  # x of a whole panel's load [m], as MIDDLE_OF_PANEL
+    PAIRS = 46  # first of the rows of `Pair`
 
 
 class Pair(IntEnum):

@@ -6,7 +6,6 @@ import numpy as np
 import pytest
 
 from contact.instance import workspace
-from contact.kernels.normal import influence
 from contact.kernels.normal.descent import FEWEST, MOST, N_LAYERS, descend, has_one_run
 from contact.kernels.normal.elimination import eliminate
 from contact.kernels.normal.ends import end_moves, have_idle_part
@@ -124,18 +123,20 @@ def _two_panels(n):
     return vectors
 
 
+@pytest.mark.parametrize("locus", [0.0, 2.0, 9.0])
 @pytest.mark.parametrize("at", [-2.0, -1.001, 1.2, 2.5, 3.9, 5.01, 9.0])
-def test_overlap_outside_the_panels_is_that_of_the_displacement(at):
-    n, centre = 12, workspace.strip_tables()[0]
+def test_overlap_outside_the_panels_is_that_of_the_displacement(at, locus):
+    """The point lies beside the strips' line too: on a yawed wheel two lobes are up to 30 mm apart along x."""
+    n, (centre, plane) = 12, workspace.strip_tables()[:2]
     vectors = _two_panels(n)
+    vectors[Vector.XC, n:] = -1.0
     _summarise(n, 2, vectors, 1.0)
-    away = np.abs(at - vectors[Vector.Y])
+    away, aside = np.abs(at - vectors[Vector.Y]), np.abs(locus - vectors[Vector.XC])
     u = 0.0
-    for y, h, a, p in zip(away, vectors[Vector.HALF], vectors[Vector.A], vectors[Vector.P], strict=True):
-        u += (
-            p
-            * a
-            * (influence.at_centre(centre, math.log((y + h) / a)) - influence.at_centre(centre, math.log((y - h) / a)))
-        )
-    assert _is_overlapped(at, u * (1 + 1e-9), n, 2, vectors, centre, 1.0)
-    assert not _is_overlapped(at, u * (1 - 1e-9), n, 2, vectors, centre, 1.0)
+    for y, x, h, a, p in zip(away, aside, *vectors[[Vector.HALF, Vector.A, Vector.P]], strict=True):
+        s = np.cos((np.arange(400) + 0.5) * math.pi / 400)
+        along = np.abs(x / a - s) + 1e-12
+        column = np.arcsinh((y + h) / a / along) - np.arcsinh((y - h) / a / along)
+        u += p * a * math.pi / 400 * ((1 - s**2) * column).sum()
+    assert _is_overlapped(at, locus, u * (1 + 1e-3), n, 2, vectors, centre, plane, 1.0)
+    assert not _is_overlapped(at, locus, u * (1 - 1e-3), n, 2, vectors, centre, plane, 1.0)

@@ -8,6 +8,7 @@ from contact.kernels.normal.descent import END_SLOPE, END_STEP, END_VALUE
 from contact.kernels.rows import Vector
 
 _END_RANGE = (-3.0, 20.0)  # of one move outwards before the factor END_STEP, in widths of the end strip
+_FAR = 0.95  # of that range, from which on a move counts as the longest one
 #: Squared ratio of pressures from which on a frozen end still moves outwards: they rise towards the corner of a punch.
 _PUNCH = 1.0
 #: Pressure of the strip at an end over those of the next two, from which on it is a spur: the end lies inside the contact.
@@ -109,6 +110,15 @@ def _by_groups(vectors, n, first, step, cosines, wanted):
     share = min(max(0.5 * abs(far) - 1.0, 0.0), 1.0)
     share *= share * (3.0 - 2.0 * share)
     return share * far + (1.0 - share) * wanted
+
+
+@entry
+def is_far(n: int, cosines: Numbers, moved: float) -> bool:
+    """Return whether an end `moved` outwards, over the width, as far as strips tell: its place of rest lies beyond."""
+    size = 1
+    while 2 * size * _COARSEST <= n:
+        size *= 2
+    return moved > _FAR * 0.5 * END_STEP * _END_RANGE[1] * (1.0 + cosines[size])
 
 
 @kernel

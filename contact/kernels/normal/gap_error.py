@@ -14,10 +14,14 @@ from contact.kernels import cubic
 from contact.kernels.normal.many_strips import displacement, fill_ln_X
 from contact.kernels.rows import Pair, Strip, Vector
 
-#: Number of strips at which the gap is evaluated.
+#: Number of strips at whose middles the gap is evaluated.
 CHECKED = 8
-#: Distance from the middle of a skewed strip, over its half length, at which the gap is evaluated too.
-ASIDE = 0.5
+#: The same of skewed strips, where the pressure may have two humps on a few strips, and the distance from their middles on
+#: either side, over their half length, at which it is evaluated instead.
+CHECKED_SKEWED, ASIDE = 12, 0.5
+#: Distance from the ends of a patch, over its width, at which an overlap is sought: an end that was fixed before it arrived
+#: leaves one.
+BEYOND = 0.1
 #: Half length [m] in place of 0, of which logarithm and reciprocal are traps.
 _LEAST = 1e-12
 
@@ -62,10 +66,27 @@ def _deepest_outside(sep, n, delta, strips, result):
 
 
 @kernel
+def _overlap_at(sep, at, n, delta, per_modulus, strips, vectors, plane, result):
+    """Return the overlap at y = at on the line of least gap, over the approach; 0 within a patch or where there are no data."""
+    y, g, size = sep.y, sep.g, sep.y.size
+    for patch in range(int(strips[Strip.PATCH, n - 1]) + 1):
+        if result.edges[2 * patch] <= at <= result.edges[2 * patch + 1]:
+            return 0.0
+    if not y[0] <= at <= y[size - 1]:
+        return 0.0
+    k = cubic.locate(y, size, at, 0)
+    t = (at - y[k]) / (y[k + 1] - y[k])
+    gap = (1.0 - t) * g[k] + t * g[k + 1] - result.touch
+    locus = (1.0 - t) * sep.x_c[k] + t * sep.x_c[k + 1]
+    return (delta - gap - per_modulus * _displacement(at, locus, -1, n, strips, vectors, plane)) / delta
+
+
+@kernel
 def gap_error(sep, n, case, own, result):
     """Return the largest gap or overlap left, over the approach [-]; 1 at most.
 
-    Gaps are evaluated at the middles of `CHECKED` of n strips, overlaps also where a lobe may have been missed.
+    Gaps are evaluated at the middles of `CHECKED` of n strips, on skewed strips beside them, overlaps also where a lobe
+    may have been missed and beside the ends of the patches.
     """
     y, g, size = sep.y, sep.g, sep.y.size
     strips, vectors, plane = own.strips, own.space.vectors, own.tables.plane
@@ -74,8 +95,10 @@ def gap_error(sep, n, case, own, result):
         return 0.0
     per_modulus = (1.0 - case.nu) / (math.pi * case.G)
     _summarise(n, strips, vectors)
-    largest, k = 0.0, 0
-    count = min(CHECKED, n)
+    largest, k, skewed = 0.0, 0, False
+    for i in range(n):
+        skewed = skewed or strips[Strip.OFFSET, i] != 0.0
+    count = min(CHECKED_SKEWED if skewed else CHECKED, n)
     for strip in range(count):
         i = (2 * strip + 1) * n // (2 * count)
         at = strips[Strip.Y, i]
@@ -85,11 +108,17 @@ def gap_error(sep, n, case, own, result):
         t = (at - y[k]) / h
         gap = cubic.value(h, g[k], m0, g[k + 1], m1, t) - result.touch
         offset, curvature = strips[Strip.OFFSET, i], (1.0 - t) * sep.A[k] + t * sep.A[k + 1]
-        for point in range(-1 if offset != 0.0 else 0, 2 if offset != 0.0 else 1):
-            aside = point * ASIDE * strips[Strip.A, i]
+        for side in range(2 if skewed else 1):
+            aside = (2 * side - 1) * ASIDE * strips[Strip.A, i] if skewed else 0.0
             away, locus = offset + aside, strips[Strip.XC, i] + aside
             used = per_modulus * _displacement(at, locus, i, n, strips, vectors, plane)
             left = abs(gap + curvature * away * away + used - delta) / delta
+            largest = max(largest, min(left, 1.0))
+    for patch in range(int(strips[Strip.PATCH, n - 1]) + 1):
+        low, high = result.edges[2 * patch], result.edges[2 * patch + 1]
+        for side in range(2):
+            at = high + BEYOND * (high - low) if side > 0 else low - BEYOND * (high - low)
+            left = _overlap_at(sep, at, n, delta, per_modulus, strips, vectors, plane, result)
             largest = max(largest, min(left, 1.0))
     missed = _deepest_outside(sep, n, delta, strips, result)
     if missed >= 0:

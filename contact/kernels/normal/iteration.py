@@ -18,7 +18,7 @@ from typing import Any, NamedTuple
 from contact.core import kernel
 from contact.kernels.normal.brackets import damp_turns, keep_between, note_sides
 from contact.kernels.normal.descent import COARSE, descend, descend_offsets, has_one_run, straightening
-from contact.kernels.normal.ends import end_moves, have_idle_part
+from contact.kernels.normal.ends import end_moves, have_idle_part, is_far
 from contact.kernels.normal.mixing import advance, mix
 from contact.kernels.normal.panels import EARLY_GHOST, GHOST, extend_to_ghosts, start_panels
 from contact.kernels.normal.partition import cut_idle, have_gap, join_panels, part_panels, remove_unloaded
@@ -46,6 +46,8 @@ PLAIN_SKEWED = 18
 DAMPED = 24
 #: Iteration from which on the ends keep between the places from which they moved outwards and inwards.
 BRACKET = 12
+#: Iteration from which on ends of skewed patches that are far from their place of rest are sought by the gap, and how often.
+SEEK, EVERY = 11, 4
 #: How often panels are parted from one start: parts that grow together again would be parted for ever.
 MOST_PARTED = 3
 #: Iterations in which a warm start has to come to rest. Then the iteration starts again from ANALYN's solution.
@@ -212,7 +214,7 @@ def _search(problem, state, least):
     own, panels, vectors, before = problem.own, problem.panels, problem.own.space.vectors, state.n_panels
     state.searched = 1
     state.n_panels, found = extend_to_ghosts(
-        problem.sep, problem.touch, state.approach, least, problem.unit, before, panels, own
+        problem.sep, problem.touch, state.approach, least, problem.unit, problem.skew, before, panels, own
     )
     if found:
         state.found, state.mixed, state.best = 1, 0, math.inf
@@ -224,11 +226,14 @@ def _search(problem, state, least):
 
 @kernel
 def _part(problem, state):
-    """Part panels that are idle between loaded strips. Return whether there are any."""
+    """Part panels that are idle between loaded strips. Return whether there are any.
+
+    The ends of skewed parts need some iterations before they are fixed.
+    """
     own, panels, vectors = problem.own, problem.panels, problem.own.space.vectors
     n, age = own.rule.across.nodes.size, state.number - state.begun
     if (
-        age >= FREEZE
+        age >= (BRACKET if problem.skew > 0.0 else FREEZE)
         or state.cut != 0
         or state.parted == MOST_PARTED
         or not have_gap(n, state.n_panels, own.rule.cosines, vectors)
@@ -273,6 +278,20 @@ def _swings(problem, state):
 
 
 @kernel
+def _seeks(problem, state):
+    """Return whether the gap outside the panels is searched now, though they are not at rest.
+
+    That is once, and in skewed patches again while an end is far from its place of rest. Where a thin bridge joins two
+    lobes, the rule of the ends would need dozens of iterations to cross it.
+    """
+    rule, age = problem.own.rule, state.number - state.begun
+    if state.cut != 0 or state.searched == 0:
+        return state.cut == 0
+    due = problem.skew > 0.0 and age >= SEEK and (age - SEEK) % EVERY == 0
+    return due and is_far(rule.across.nodes.size, rule.cosines, state.moved)
+
+
+@kernel
 def accept(problem, state):
     """Return whether the unknowns are at rest and nothing lies outside the panels. Otherwise change them by the step.
 
@@ -295,8 +314,8 @@ def accept(problem, state):
         elif not _search(problem, state, GHOST):
             state.converged = 1 if exact or settled else 0
             return True
-    elif state.searched == 0 and state.cut == 0:
-        _search(problem, state, EARLY_GHOST)
+    elif _seeks(problem, state):
+        _search(problem, state, GHOST if state.searched != 0 else EARLY_GHOST)
     _take(problem, state)
     return False
 

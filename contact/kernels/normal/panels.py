@@ -144,27 +144,55 @@ def half_lengths(vectors: Matrix, n: int, n_panels: int, delta: float) -> None:
 
 
 @kernel
+def _read(at, low, high, cosines, vectors, lengths, offsets, first):
+    """Return ln a and offset of a panel from `low` to `high` at a place, with a² linear in y and constant beyond.
+
+    The rows `lengths` and `offsets` hold them from strip `first` on.
+    """
+    n = cosines.size - 1
+    scale = 0.5 * (high - low)
+    unit = (at - 0.5 * (low + high)) / scale
+    k = 1
+    while k < n - 2 and 0.5 * (cosines[k + 1] + cosines[k + 2]) < unit:
+        k += 1
+    left, right = 0.5 * (cosines[k] + cosines[k + 1]), 0.5 * (cosines[k + 1] + cosines[k + 2])
+    t = min(max((unit - left) / (right - left), 0.0), 1.0)
+    square = (1.0 - t) * math.exp(2.0 * vectors[lengths, first + k]) + t * math.exp(
+        2.0 * vectors[lengths, first + k + 1]
+    )
+    return 0.5 * math.log(square), (1.0 - t) * vectors[offsets, first + k] + t * vectors[offsets, first + k + 1]
+
+
+@kernel
+def _place(i, low, high, cosines):
+    """Return the middle of strip i of a panel from `low` to `high`."""
+    return 0.5 * (low + high) + 0.25 * (high - low) * (cosines[i] + cosines[i + 1])
+
+
+@kernel
 def resample(old_low, old_high, low, high, cosines, vectors, first):
     """Transfer a²(y) and offsets of one panel to new ends, linear in y and constant beyond."""
     n = cosines.size - 1
-    scale = 0.5 * (old_high - old_low)
     for i in range(n):
         vectors[Vector.R_OLD, first + i] = vectors[Vector.LN_A, first + i]
         vectors[Vector.OFFSET_R_OLD, first + i] = vectors[Vector.OFFSET, first + i]
     for i in range(n):
-        at = 0.5 * (low + high) + 0.25 * (high - low) * (cosines[i] + cosines[i + 1])
-        unit = (at - 0.5 * (old_low + old_high)) / scale
-        k = 1
-        while k < n - 2 and 0.5 * (cosines[k + 1] + cosines[k + 2]) < unit:
-            k += 1
-        left, right = 0.5 * (cosines[k] + cosines[k + 1]), 0.5 * (cosines[k + 1] + cosines[k + 2])
-        t = min(max((unit - left) / (right - left), 0.0), 1.0)
-        square = (1.0 - t) * math.exp(2.0 * vectors[Vector.R_OLD, first + k]) + t * math.exp(
-            2.0 * vectors[Vector.R_OLD, first + k + 1]
+        vectors[Vector.LN_A, first + i], vectors[Vector.OFFSET, first + i] = _read(
+            _place(i, low, high, cosines), old_low, old_high, cosines, vectors, Vector.R_OLD, Vector.OFFSET_R_OLD, first
         )
-        vectors[Vector.LN_A, first + i] = 0.5 * math.log(square)
-        offset = (1.0 - t) * vectors[Vector.OFFSET_R_OLD, first + k] + t * vectors[Vector.OFFSET_R_OLD, first + k + 1]
-        vectors[Vector.OFFSET, first + i] = offset
+
+
+@kernel
+def take_over(other, panels, low, high, cosines, vectors, first):
+    """Take a² and offsets of strips that lie in panel `other` from there. `low` and `high` are the ends of their own panel."""
+    n = cosines.size - 1
+    begin, end = panels[2 * other], panels[2 * other + 1]
+    for i in range(n):
+        at = _place(i, low, high, cosines)
+        if begin < at < end:
+            vectors[Vector.LN_A, first + i], vectors[Vector.OFFSET, first + i] = _read(
+                at, begin, end, cosines, vectors, Vector.LN_A, Vector.OFFSET, other * n
+            )
 
 
 @kernel
@@ -197,22 +225,32 @@ def _summarise(n: int, n_panels: int, vectors: Matrix, unit: float) -> None:
     """Fill reach and spread of strips and of whole panels."""
     for p in range(n_panels):
         first = p * n
-        load, moment, square = 0.0, 0.0, 0.0
+        load, moment, along, square = 0.0, 0.0, 0.0, 0.0
         for j in range(first, first + n):
-            a, h, at = vectors[Vector.A, j], vectors[Vector.HALF, j], vectors[Vector.Y, j]
+            a, h, at, locus = vectors[Vector.A, j], vectors[Vector.HALF, j], vectors[Vector.Y, j], vectors[Vector.XC, j]
             own, spread = math.pi * unit * vectors[Vector.P, j] * a * h, 0.25 * a * a + h * h / 3.0
             vectors[Vector.REACH, j], vectors[Vector.SPREAD, j] = own, spread
-            load, moment, square = load + own, moment + own * at, square + own * (at * at + spread)
-        middle = moment / load if load > 0.0 else 0.0
+            load, moment, square = load + own, moment + own * at, square + own * (at * at + locus * locus + spread)
+            along += own * locus
+        middle, locus = (moment / load, along / load) if load > 0.0 else (0.0, 0.0)
         vectors[Vector.REACH_OF_PANEL, first], vectors[Vector.MIDDLE_OF_PANEL, first] = load, middle
-        vectors[Vector.SPREAD_OF_PANEL, first] = max(square / load - middle * middle, 1e-300) if load > 0.0 else 1.0
+        spread = max(square / load - middle * middle - locus * locus, 1e-300) if load > 0.0 else 1.0
+        vectors[Vector.SPREAD_OF_PANEL, first], vectors[Vector.LOCUS_OF_PANEL, first] = spread, locus
 
 
 @entry
 def _is_overlapped(
-    at: float, allowed: float, n: int, n_panels: int, vectors: Matrix, centre: Matrix, unit: float
+    at: float,
+    locus: float,
+    allowed: float,
+    n: int,
+    n_panels: int,
+    vectors: Matrix,
+    centre: Matrix,
+    plane: Matrix,
+    unit: float,
 ) -> bool:
-    """Return whether the displacement at a point outside the panels is less than `allowed`.
+    """Return whether the displacement at y = at, x = locus outside the panels is less than `allowed`.
 
     Two cheap lower bounds are tried first. They take the load of every panel, then of every strip, at the root mean
     square of its distances. This displaces the point no more than the load does.
@@ -220,30 +258,33 @@ def _is_overlapped(
     u = 0.0
     for p in range(n_panels):
         first = p * n
-        away = at - vectors[Vector.MIDDLE_OF_PANEL, first]
-        u += vectors[Vector.REACH_OF_PANEL, first] / math.sqrt(away * away + vectors[Vector.SPREAD_OF_PANEL, first])
+        away, aside = at - vectors[Vector.MIDDLE_OF_PANEL, first], locus - vectors[Vector.LOCUS_OF_PANEL, first]
+        square = away * away + aside * aside + vectors[Vector.SPREAD_OF_PANEL, first]
+        u += vectors[Vector.REACH_OF_PANEL, first] / math.sqrt(square)
     if allowed <= u:
         return False
-    middles, reaches, spreads, by_strip = (
-        vectors[Vector.Y], vectors[Vector.REACH], vectors[Vector.SPREAD], vectors[Vector.Q1],
+    middles, loci, reaches, spreads, by_strip = (
+        vectors[Vector.Y], vectors[Vector.XC], vectors[Vector.REACH], vectors[Vector.SPREAD], vectors[Vector.Q1],
     )  # fmt: skip
     for j in range(n * n_panels):  # each by itself, so that the compiler takes several at once
-        away = at - middles[j]
-        by_strip[j] = reaches[j] / math.sqrt(away * away + spreads[j])
+        away, aside = at - middles[j], locus - loci[j]
+        by_strip[j] = reaches[j] / math.sqrt(away * away + aside * aside + spreads[j])
     u = 0.0
     for j in range(n * n_panels):
         u += by_strip[j]
-    return allowed > u and allowed > displacement_outside(at, n, n_panels, vectors, centre, unit)
+    return allowed > u and allowed > displacement_outside(at, locus, n, n_panels, vectors, centre, plane, unit)
 
 
 @kernel
-def extend_to_ghosts(sep, g_least, delta, least, unit, n_panels, panels, own):
+def extend_to_ghosts(sep, g_least, delta, least, unit, skew, n_panels, panels, own):
     """Widen the nearest panel or open a new one where the gap outside all panels would be overlapped.
 
-    Return the number of panels and whether anything changed. Without this a second patch that the start solution missed
-    would not be found (strip_halfspace.md 2, step 5).
+    It is sought on the line of least gap. `skew` scales its offsets along x, as in `lay_panels`. Return the number of
+    panels and whether anything changed. Without this a second patch that the start solution missed would not be found
+    (strip_halfspace.md 2, step 5).
     """
-    y, g, cosines, vectors, centre = sep.y, sep.g, own.rule.cosines, own.space.vectors, own.tables.centre
+    y, g, cosines, vectors = sep.y, sep.g, own.rule.cosines, own.space.vectors
+    centre, plane = own.tables.centre, own.tables.plane
     size, n = y.size, cosines.size - 1
     known = n_panels  # new panels displace nothing during the search for further ghosts
     changed = False
@@ -254,14 +295,18 @@ def extend_to_ghosts(sep, g_least, delta, least, unit, n_panels, panels, own):
         inside = g[i] >= highest
         for p in range(n_panels):
             inside = inside or panels[2 * p] <= y[i] <= panels[2 * p + 1]
-        if inside or not _is_overlapped(y[i], highest - g[i], n, known, vectors, centre, unit):
+        if inside or not _is_overlapped(
+            y[i], skew * sep.x_c[i], highest - g[i], n, known, vectors, centre, plane, unit
+        ):
             i += 1
             continue
         k = i  # the overlap goes from sample i to k
         while (
             k + 1 < size
             and g[k + 1] < highest
-            and _is_overlapped(y[k + 1], highest - g[k + 1], n, known, vectors, centre, unit)
+            and _is_overlapped(
+                y[k + 1], skew * sep.x_c[k + 1], highest - g[k + 1], n, known, vectors, centre, plane, unit
+            )
         ):
             k += 1
         margin = 1 if least <= GHOST else 0  # no margin while the ends still move

@@ -2,7 +2,7 @@
 
 from contact.core import entry, kernel
 from contact.kernels.arrays import Matrix, Numbers
-from contact.kernels.normal.panels import resample
+from contact.kernels.normal.panels import resample, take_over
 from contact.kernels.records import MAX_PATCHES
 from contact.kernels.rows import Vector
 
@@ -93,7 +93,7 @@ def _remove_panel(p, n, n_panels, panels, vectors):
         for i in range(n):
             for row in (Vector.LN_A, Vector.ACTIVE, Vector.P, Vector.END, Vector.A, Vector.HALF, Vector.R):
                 vectors[row, q * n + i] = vectors[row, (q + 1) * n + i]
-            for row in (Vector.OFFSET, Vector.OFFSET_R):
+            for row in (Vector.OFFSET, Vector.OFFSET_R, Vector.XC, Vector.Y, Vector.LN_LENGTH):
                 vectors[row, q * n + i] = vectors[row, (q + 1) * n + i]
 
 
@@ -132,6 +132,7 @@ def join_panels(n, n_panels, panels, cosines, vectors):
                 wider = p if panels[2 * p + 1] - panels[2 * p] >= panels[2 * q + 1] - panels[2 * q] else q
                 low, high = min(panels[2 * p], panels[2 * q]), max(panels[2 * p + 1], panels[2 * q + 1])
                 resample(panels[2 * wider], panels[2 * wider + 1], low, high, cosines, vectors, wider * n)
+                take_over(p + q - wider, panels, low, high, cosines, vectors, wider * n)
                 for i in range(n):
                     vectors[Vector.LN_A, p * n + i] = vectors[Vector.LN_A, wider * n + i]
                     vectors[Vector.OFFSET, p * n + i] = vectors[Vector.OFFSET, wider * n + i]

@@ -5,7 +5,7 @@ import math
 from contact.core import kernel
 from contact.kernels.normal.between_panels import IN_LINE, add_others, assemble_others
 from contact.kernels.normal.elimination import eliminate
-from contact.kernels.normal.influence import N_X, at_centre, column, in_row, logarithm, row_at
+from contact.kernels.normal.influence import N_X, at_centre, column, in_row, logarithm, off_line, row_at
 from contact.kernels.normal.many_strips import displacement, fill_ln_X
 from contact.kernels.rows import Pair, Vector
 
@@ -116,8 +116,8 @@ def edge_displacements(panels, n_panels, own, skewed, unit):
 
 
 @kernel
-def displacement_outside(at, n, n_panels, vectors, centre, unit):
-    """Return the displacement at a point of the centre line that lies in no panel [m]."""
+def displacement_outside(at, locus, n, n_panels, vectors, centre, plane, unit):
+    """Return the displacement at y = at, x = locus, which lies in no panel [m]."""
     u = 0.0
     for p in range(n_panels):
         first = p * n
@@ -131,9 +131,13 @@ def displacement_outside(at, n, n_panels, vectors, centre, unit):
                 max(abs(vectors[Vector.Y, j] - at + vectors[Vector.HALF, j]), 1e-12 * vectors[Vector.HALF, j])
             )
             if vectors[Vector.P, j] > 0.0:
-                ln_a = vectors[Vector.LN_LENGTH, j]
-                beyond = at_centre(centre, ln_away - ln_a) - at_centre(centre, before - ln_a)
-                u += vectors[Vector.P, j] * vectors[Vector.A, j] * unit * side * beyond
+                ln_a, a = vectors[Vector.LN_LENGTH, j], vectors[Vector.A, j]
+                X = abs(vectors[Vector.XC, j] - locus) / a
+                if X > IN_LINE:
+                    beyond = off_line(centre, plane, X, max(ln_away, before) - ln_a, min(ln_away, before) - ln_a)
+                else:
+                    beyond = side * (at_centre(centre, ln_away - ln_a) - at_centre(centre, before - ln_a))
+                u += vectors[Vector.P, j] * a * unit * beyond
     return u
 
 
