@@ -85,7 +85,7 @@ def motions(length: float) -> NDArray[np.void]:
     track = Track(curves=(curve,), alignment=rough, vertical=rough, cross_level=rough, gauge=rough)
     rows = lay(track, length, lambda s: SPEED, (1,), 20.0)
     run = Simulation(
-        read("manchester"), rows, profile.s1002(), profile.rail_60e1(), FRICTION, ContactOptions(pace=4), threads=2
+        read("manchester"), rows, profile.s1002(), profile.rail_60e1(), FRICTION, ContactOptions(), threads=2
     )
     found = []
     while run.distance < length:

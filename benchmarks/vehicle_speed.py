@@ -57,7 +57,7 @@ def shared(threads: int, seconds: float) -> list[list[str]]:
     rows = []
     for where, (speed, track) in TRACKS.items():
         best: dict[int, float] = {}
-        vehicles = {n: started(speed, track, ContactOptions(pace=PACE), seconds, n) for n in (1, threads)}
+        vehicles = {n: started(speed, track, ContactOptions(), seconds, n) for n in (1, threads)}
         for _ in range(round(seconds / STEP / SHORT)):
             for n, vehicle in vehicles.items():
                 start = time.perf_counter()
@@ -73,11 +73,11 @@ def measured(speed: float, track: Track, options: ContactOptions, seconds: float
     """
     vehicle = started(speed, track, options, seconds)
     steps = round(seconds / STEP)
-    before = vehicle.benches.held.solutions.copy()
+    before = vehicle.benches.last.solutions.copy()
     start = time.process_time()
     vehicle.advance(STEP, steps)
     spent = (time.process_time() - start) / steps
-    solved = float((vehicle.benches.held.solutions - before).mean()) / steps if options.pace > 1 else 1.0
+    solved = float((vehicle.benches.last.solutions - before).mean()) / steps if options.pace > 1 else 1.0
     arguments = vehicle.model, vehicle.state, vehicle.benches.motions, vehicle.scratch
     calls = 500
     prepare_contacts(*arguments, speed)

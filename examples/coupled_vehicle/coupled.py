@@ -30,7 +30,7 @@ from examples.coupled_vehicle.contacts import InFmu, InPython
 
 SPEED = 15.0  # [m/s]
 FRICTION = 0.3
-FAST = ContactOptions(normal="analyn", tangential="fastrip")
+FAST = ContactOptions(normal="analyn", tangential="fastrip", pace=1)
 STEP = 2e-4  # [s]
 PARALLEL, PARALLEL_SECONDS = (1e-4, 5e-5, 2.5e-5, 1.25e-5), 0.2  # steps [s] of the parallel scheme, and its time [s]
 EVERY = 10  # steps between two samples
@@ -119,7 +119,7 @@ def main() -> None:
     parser.add_argument("fmu", type=Path)
     parser.add_argument("--seconds", type=float, default=2.0)
     arguments = parser.parse_args()
-    for options in (ContactOptions(), FAST):
+    for options in (ContactOptions(pace=1), FAST):
         samples = round(arguments.seconds / (EVERY * STEP))
         whole = in_one_kernel(options, STEP, samples)
         with ExitStack() as stack:

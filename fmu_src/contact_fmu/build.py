@@ -202,8 +202,6 @@ def _validate(arguments: argparse.Namespace, paths: Sequence[Path], model: Model
         )
         for place in made:
             print(f"{model.table.name}, validation set: {place}")
-        if not made:
-            print(f"{model.table.name}, validation set: not made, a vehicle without contacts needs its pairs")
 
 
 def build_native(

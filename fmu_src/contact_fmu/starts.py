@@ -38,6 +38,7 @@ def vehicle(given: Scenario, start: float) -> Starts:
         "method.tangential": methods.tangential,
         "resolution.n_strips": methods.strips,
         "resolution.n_elements": methods.elements,
+        "resolution.pace": methods.pace,
         "material.pressure_limit": methods.pressure_limit or 0.0,
     }
     if given.declared.recording.step is not None:

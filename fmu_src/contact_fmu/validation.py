@@ -31,7 +31,7 @@ _README = """# Validation set of {name}
 FMI {version}, {kind}. File of the FMU: {file}
 
 1. Import the FMU in your tool. Leave all parameters at their starts.
-2. Drive it by `{name}_in.csv` with a communication step of {step:g} s from 0 to {stop:g} s. Inputs are held over a step.
+2. Drive it by {files} with a communication step of {step:g} s from 0 to {stop:g} s. Inputs are held over a step.
 3. Write all outputs at these {n} times to a file and compare:
 
        contact fmu-check RESULT.csv --reference .
@@ -58,8 +58,6 @@ def write(
     from fmpy import read_model_description
 
     version = read_model_description(str(fmu)).fmiVersion.split(".")[0]
-    if version == "3" and table.name == "OpenVehicle":
-        return []  # its inputs are arrays there, which the form has no columns for
     packaging = "python" if "python" in fmu.parts[-3:] else "native"
     made = []
     for short in KINDS if exchange else ("cs",):
@@ -89,7 +87,13 @@ def _write(fmu: Path, table: Table, place: Path, short: str, version: str, vehic
     name, scalar = table.name, _scalars(fmu)
     names = [one for one in columns(table, Causality.OUTPUT) if one in answer and one in scalar and "," not in one]
     arrays = {one: values for one, values in answer.items() if one not in (*names, "time")}
-    _csv(place / f"{name}_in.csv", given.time, _inputs(table, given, _scalars(fmu)))
+    _csv(place / f"{name}_in.csv", given.time, _inputs(table, given, scalar))
+    files, driven = [f"`{name}_in.csv`"], _driven(table, given, scalar)
+    if driven:
+        files.append(f"`{name}_in_arrays.csv` (elements of arrays)")
+        elements = [one for of_array in driven.values() for one in of_array]
+        values = dict(zip(elements, _stacked(table, given, elements).T, strict=True))
+        _csv(place / f"{name}_in_arrays.csv", given.time, values, ";")
     _csv(place / f"{name}_ref.csv", answer["time"], {one: answer[one] for one in names})
     if arrays:
         _csv(place / f"{name}_arrays.csv", answer["time"], arrays, ";")
@@ -100,7 +104,8 @@ def _write(fmu: Path, table: Table, place: Path, short: str, version: str, vehic
     rows = [f'"{one}",{tolerance(one, answer[one])!r}\n' for one in (*names, *arrays)]
     (place / "tolerances.csv").write_text("output,tolerance\n" + "".join(rows), encoding="utf-8")
     text = _README.format(
-        name=name, version=version, kind=KINDS[short], file=fmu.name, step=given.step, stop=given.time[-1],
+        name=name, version=version, kind=KINDS[short], file=fmu.name, files=" and ".join(files),
+        step=given.step, stop=given.time[-1],
         n=len(given.time), fmpy=fmpy.__version__, scenes=_scenes(table, given), physics="; ".join(physics),
     )  # fmt: skip
     (place / "README.md").write_text(text, encoding="utf-8")
@@ -121,6 +126,26 @@ def _inputs(table: Table, given: Case, scalar: set[str]) -> dict[str, Array]:
     starts = {one.name: float(one.first) for one in table.scalars}
     names = [name for name in columns(table, Causality.INPUT) if name in scalar]
     return {name: given.inputs.get(name, np.full(len(given.time), starts[name])) for name in names}
+
+
+def _driven(table: Table, given: Case, scalar: set[str]) -> dict[str, list[str]]:
+    """Return the inputs that are arrays in the FMU and vary: name → names of the elements. Only FMI 3.0 has any."""
+    found = _elements([name for name in columns(table, Causality.INPUT) if name not in scalar])
+    return {array: names for array, names in found.items() if any(name in given.inputs for name in names)}
+
+
+def _elements(names: list[str]) -> dict[str, list[str]]:
+    """Return the names of the elements of each array by its name."""
+    found: dict[str, list[str]] = {}
+    for name in names:
+        found.setdefault(re.sub(r"\[[\d,]*\]", "", name), []).append(name)
+    return found
+
+
+def _stacked(table: Table, given: Case, names: list[str]) -> Array:
+    """Return the values of these inputs over time, a column each; those that do not vary are at their starts."""
+    starts = {one.name: float(one.first) for one in table.scalars}
+    return np.stack([given.inputs.get(name, np.full(len(given.time), starts[name])) for name in names], axis=1)
 
 
 def _scalars(fmu: Path) -> set[str]:
@@ -147,16 +172,16 @@ def _simulated(
     from fmpy import simulate_fmu
 
     scalar = _scalars(fmu)
-    varied = _inputs(table, given, scalar)
-    signals = np.zeros(len(given.time), dtype=[("time", float), *((name, float) for name in varied)])
+    driven = _driven(table, given, scalar)
+    # fmpy takes either numbers or arrays of one length; where arrays vary the numbers are at their starts
+    varied = {one: _stacked(table, given, names) for one, names in driven.items()} or _inputs(table, given, scalar)
+    kinds = [(name, float, values.shape[1:]) for name, values in varied.items()]
+    signals = np.zeros(len(given.time), dtype=[("time", float), *kinds])
     signals["time"] = given.time
     for name, values in varied.items():
         signals[name] = values
     names = columns(table, Causality.OUTPUT)
-    arrays: dict[str, list[str]] = {}  # of FMI 3.0: name → names of the elements
-    for name in names:
-        if name not in scalar:
-            arrays.setdefault(re.sub(r"\[[\d,]*\]", "", name), []).append(name)
+    arrays = _elements([name for name in names if name not in scalar])
     result = simulate_fmu(
         str(fmu), fmi_type=KINDS[short], input=signals, output=[*(n for n in names if n in scalar), *arrays], start_time=0.0,
         stop_time=given.time[-1], step_size=given.step, output_interval=given.step, solver="Euler", start_values=starts or {},

@@ -25,13 +25,14 @@ FRICTION = {
     "background_temperature": 305.0,
 }  # fmt: skip
 THERMAL = {"conductivity": 45.0, "density": 7900.0, "heat_capacity": 470.0, "heat_share": 0.5}
-METHODS = {"normal": "analyn", "tangential": "fastrip", "strips": 24, "elements": 16, "pressure_limit": 2e9}
+METHODS = {"normal": "analyn", "tangential": "fastrip", "strips": 24, "elements": 16, "pressure_limit": 2e9, "pace": 2}
 ROW = {
     "normal": "method.normal",
     "tangential": "method.tangential",
     "strips": "resolution.n_strips",
     "elements": "resolution.n_elements",
     "pressure_limit": "material.pressure_limit",
+    "pace": "resolution.pace",
 }
 HEAD = 'name = "s"\nvehicle = "{}"\nlength = 100.0\nspeed = 20.0\n'
 
@@ -57,7 +58,7 @@ def test_both_fmus_start_at_the_speed_and_friction_of_the_scenario(tmp_path, of)
 def test_what_a_scenario_can_set_of_the_vehicle_fmu_is_its_start(tmp_path):
     assert FRICTION.keys() == {one.name for one in fields(Friction)} - {"thermal"}
     assert THERMAL.keys() == {one.name for one in fields(Thermal)}
-    assert METHODS.keys() == {one.name for one in fields(Methods)} - {"pace"}  # a step of an FMU solves every contact
+    assert METHODS.keys() == {one.name for one in fields(Methods)}
     friction = f"[friction]\n{toml(FRICTION)}[friction.thermal]\n{toml(THERMAL)}"
     rows, _ = built(tmp_path, f"{friction}[methods]\n{toml(METHODS)}[recording]\nstep = 3e-4\n")
     defaults = {row.name: row.start for row in vehicle.table("manchester").rows}

@@ -1,6 +1,7 @@
 """The FMUs of vehicles: with contacts, and without them in coupled_vehicle.ssp. Both give the run of the one kernel."""
 
 import zipfile
+from dataclasses import replace
 from pathlib import Path
 
 import fmpy
@@ -39,7 +40,7 @@ def one_kernel(options: ContactOptions = FAST, start: float = START) -> Simulati
 class Slave:
     """The FMU `Vehicle`, driven by fmpy."""
 
-    def __init__(self, folder: Path, options: ContactOptions = FAST, start: float = START) -> None:
+    def __init__(self, folder: Path, options: ContactOptions = FAST, start: float = START, **more: float) -> None:
         description = fmpy.read_model_description(str(folder / "Vehicle.fmu"))
         self.variables = {v.name: v for v in description.modelVariables}
         self.fmu = FMU2Slave(
@@ -53,11 +54,13 @@ class Slave:
         self.time = 0.0
         self.set("initial.distance", start)
         self.set("resolution.step", STEP)
+        for name, value in more.items():
+            self.set(name, value)
         for name in ("method.normal", "method.tangential"):
             variable = self.variables[name]
             items = {item.name: int(item.value) for item in variable.declaredType.items}
             self.fmu.setInteger([variable.valueReference], [items[getattr(options, name.split(".")[1])]])
-        for name in ("n_strips", "n_elements"):
+        for name in ("n_strips", "n_elements", "pace"):
             self.fmu.setInteger([self.variables[f"resolution.{name}"].valueReference], [getattr(options, name)])
         self.fmu.enterInitializationMode()
         self.fmu.exitInitializationMode()
@@ -77,6 +80,11 @@ class Slave:
         return np.array([self.get(*(f"body[{k}].{name}" for name in COORDINATES)) for k in range(1, 8)])
 
     @property
+    def totals(self) -> np.ndarray:
+        names = ("energy", "worn_volume", "T_gamma")
+        return np.array([self.get(*(f"wheel[{k}].total.{name}" for name in names)) for k in range(1, 9)])
+
+    @property
     def forces(self) -> np.ndarray:
         return np.array([self.get(*(f"wheel[{k}].force.{axis}" for axis in "xyz")) for k in range(1, 9)])
 
@@ -88,8 +96,13 @@ def forces_of(whole: Simulation) -> np.ndarray:
 
 @pytest.mark.parametrize(
     ("options", "place", "force"),
-    [(FAST, 1e-13, 1e-6), (ContactOptions(), 1e-13, 1e-6)],
-    ids=["analyn", "default"],
+    [
+        (replace(FAST, pace=1), 1e-13, 1e-6),
+        (ContactOptions(pace=1), 1e-13, 1e-6),
+        (FAST, 1e-13, 1e-6),
+        (ContactOptions(), 1e-13, 1e-6),
+    ],
+    ids=["analyn", "default", "analyn, paced", "default, paced"],
 )
 def test_the_fmu_gives_the_run_of_the_one_kernel(folder, options, place, force):
     """Communication steps of ten steps of the integration. The start amid irregularities lifts wheels."""
@@ -97,12 +110,17 @@ def test_the_fmu_gives_the_run_of_the_one_kernel(folder, options, place, force):
     for _ in range(MANY // 10):
         whole.advance(STEP, 10)
         fmu.step(10 * STEP)
+    if options.pace > 1:
+        assert whole.benches.last.solutions.mean() < 0.9 * MANY
     assert np.abs(np.diff(whole.wheels["vertical"])).max() > 100.0  # the wheels differ
     assert np.abs(fmu.motion - whole.state.q).max() <= place
     assert np.abs(fmu.forces - forces_of(whole)).max() <= force
     assert fmu.get("energy.residual")[0] == pytest.approx(whole.state.books[Book.RESIDUAL], abs=1e-6)
     assert fmu.get("energy.dissipated")[0] == pytest.approx(whole.state.books[Book.DISSIPATED], rel=1e-9)
     assert fmu.get("distance")[0] == pytest.approx(whole.distance, abs=1e-9)
+    mirror = np.tile([-1.0, 1.0], 4)  # Y is positive outwards
+    assert fmu.get(*(f"wheel[{k}].Y" for k in range(1, 9))) == pytest.approx(mirror * whole.wheels["lateral"], abs=1e-6)
+    assert fmu.get(*(f"wheel[{k}].Q" for k in range(1, 9))) == pytest.approx(whole.wheels["vertical"], abs=1e-6)
 
 
 def test_totals_add_up_what_the_wheels_do(folder):
@@ -120,19 +138,51 @@ def test_totals_add_up_what_the_wheels_do(folder):
 
 
 def test_a_saved_state_continues_to_the_same_bits(folder):
+    """In the same instance and, serialised, in another one. Step by step, so between two solutions of a contact too."""
     fmu = Slave(folder)
-    for _ in range(5):
-        fmu.step(2e-3)
-    state, at = fmu.fmu.getFMUState(), fmu.time
-    for _ in range(5):
-        fmu.step(2e-3)
-    there = fmu.motion, fmu.forces
-    fmu.fmu.setFMUState(state)
-    fmu.time = at
-    for _ in range(5):
-        fmu.step(2e-3)
-    assert np.array_equal(fmu.motion, there[0])
-    assert np.array_equal(fmu.forces, there[1])
+    fmu.step(40 * STEP)
+    for _ in range(4):
+        fmu.step(STEP)
+        state, at = fmu.fmu.getFMUState(), fmu.time
+        fmu.step(10 * STEP)
+        there = fmu.motion, fmu.forces, fmu.totals
+        other = Slave(folder)
+        bytes_of_state = fmu.fmu.serializeFMUState(state)
+        for one, its in ((fmu, state), (other, other.fmu.deserializeFMUState(bytes_of_state))):
+            one.fmu.setFMUState(its)
+            one.time = at
+            one.step(10 * STEP)
+            for found, expected in zip((one.motion, one.forces, one.totals), there, strict=True):
+                assert np.array_equal(found, expected)
+        fmu.fmu.setFMUState(state)
+        fmu.time = at
+
+
+def test_totals_do_not_depend_on_the_pace(folder):
+    found = []
+    for pace in (1, 4):
+        fmu = Slave(folder, replace(FAST, pace=pace))
+        fmu.step(400 * STEP)
+        found.append(fmu.totals)
+    each, paced = found
+    assert (each[:, 0] > 0.0).all()
+    assert np.abs(paced / each - 1.0).max() < 0.01
+
+
+def test_the_fmu_brakes_to_rest_stands_and_rolls_back(folder):
+    fmu = Slave(folder, start=-12.0, reference_speed=10.0, speed=3.0)
+    speeds = np.concatenate((np.linspace(3.0, 0.0, 150), np.zeros(50), np.linspace(0.0, -2.0, 100)))
+    places, forces, energies = [], [], []
+    for speed in speeds:
+        fmu.set("speed", speed)
+        fmu.step(0.01)
+        places.append(fmu.get("distance")[0])
+        forces.append(fmu.forces)
+        energies.append(fmu.totals[:, 0])
+    assert places[150] == pytest.approx(places[199], abs=1e-9)
+    assert places[-1] < places[199] - 0.5
+    assert np.abs(np.array(forces)[:, :, 2] / -54.5e3 - 1.0).max() < 0.6  # the bogies pitch
+    assert (np.diff(energies, axis=0) > -1e-9).all()  # friction spends, whatever the direction
 
 
 def test_the_end_of_the_track_is_no_step(folder):
@@ -145,7 +195,7 @@ def test_the_end_of_the_track_is_no_step(folder):
 
 
 def test_eight_pairs_and_the_open_vehicle_give_the_run_of_the_one_kernel(folder):
-    whole = one_kernel(ContactOptions(), start=-12.0)
+    whole = one_kernel(ContactOptions(pace=1), start=-12.0)
     with VehicleSystem(folder / "coupled_vehicle.ssp") as system:
         for _ in range(MANY):
             system.step(STEP)

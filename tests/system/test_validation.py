@@ -13,7 +13,7 @@ from contact.errors import ContactError
 from contact_fmu import validation
 from contact_fmu import validation_mirror as mirror
 from contact_fmu.catalogue import models
-from contact_fmu.check import compare
+from contact_fmu.check import compare, read
 from contact_fmu.tables import open_vehicle
 from contact_fmu.validation_cases import case
 from contact_fmu.validation_momentum import momentum
@@ -146,6 +146,28 @@ def test_a_vehicle_on_given_forces_gains_their_momentum(native_vehicles, tmp_pat
     for name, message in (("wheel[1].force.y", "momentum along y"), ("wheel[5].force.z", "momentum along z")):
         wrong = given._replace(inputs={**given.inputs, name: 1.001 * given.inputs[name] + 1.0})
         assert message in momentum(path, "manchester", wrong, answer)[0]
+
+
+def test_in_fmi_3_a_vehicle_on_given_forces_is_driven_by_arrays(native_vehicles, tmp_path):
+    """The answers are those of FMI 2.0, whose inputs are single numbers."""
+    table, found = open_vehicle.table("manchester"), []
+    for folder in (native_vehicles, native_vehicles / "fmi3"):
+        (place,) = validation.write(
+            folder / "OpenVehicle.fmu", table, tmp_path, exchange=False, force=False, vehicle="manchester"
+        )
+        found.append(place)
+    two, three = found
+    _, arrays = read(three / "OpenVehicle_arrays.csv")
+    single = read_csv(two / "OpenVehicle_ref.csv")
+    assert len(arrays) > 100
+    for name, values in arrays.items():
+        assert np.array_equal(values, single[name]), name
+    assert np.ptp(arrays["body[4].yaw"]) > 1e-6
+    _, driven = read(three / "OpenVehicle_in_arrays.csv")
+    given = read_csv(two / "OpenVehicle_in.csv")
+    assert len(driven) == 48
+    assert all(np.array_equal(values, given[name]) for name, values in driven.items())
+    assert "OpenVehicle_in_arrays.csv" in (three / "README.md").read_text()
 
 
 @pytest.mark.parametrize(

@@ -18,8 +18,8 @@ from contact_models.vehicle.simulation import PACE, ContactOptions, Simulation
 from contact_models.vehicle.spectra import Irregularities
 from contact_models.vehicle.track import Track
 
-#: Methods that are compiled and solved fast.
-FAST = ContactOptions(normal="analyn", tangential="fastrip", n_strips=20, n_elements=12)
+#: Methods that are solved fast, at every step.
+FAST = ContactOptions(normal="analyn", tangential="fastrip", n_strips=20, n_elements=12, pace=1)
 #: The same, solved anew only where a contact has changed (`test_between.py`): where a vehicle is tested, not its contacts.
 PACED = replace(FAST, pace=PACE)
 

@@ -14,7 +14,7 @@ from examples.coupled_vehicle.coupled import (
     vehicle,
 )
 
-OPTIONS = ContactOptions(normal="analyn", tangential="fastrip", n_strips=20, n_elements=12)
+OPTIONS = ContactOptions(normal="analyn", tangential="fastrip", n_strips=20, n_elements=12, pace=1)
 STEP, SAMPLES = 2e-4, 30
 
 

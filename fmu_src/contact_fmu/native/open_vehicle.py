@@ -77,7 +77,7 @@ def model_prepare(values, work, given):
     v, rows, parts, _ = _parts_of(values, work, given)
     at = rows[0]
     constants = constants_of(given.own, at, _N_PLACES)
-    fill(parts, constants, constants.radius, v[at.rail_origin_y], v[at.rail_origin_z])
+    fill(parts, constants, constants.radius, v[at.rail_origin_y], v[at.rail_origin_z], v[at.reference_speed])
     return 0
 
 

@@ -1,7 +1,8 @@
 """Native Vehicle: `contact_models.vehicle.kernels` between the entries of the native WheelRailPair, with which it is linked.
 
 The parameters of the pair have the same value references in both FMUs. There is one workspace of the pair for each side; what
-a wheel's contact remembers is copied into it before the wheel is solved.
+a wheel's contact remembers is copied into it before the wheel is solved. Most steps solve no contact: `between` follows the
+last solution, as in a run.
 """
 
 from __future__ import annotations
@@ -17,10 +18,20 @@ from contact.compile.pointers import TYPES, Doubles, integers_of, numbers_of
 from contact.core import arranging, group
 from contact.kernels.block import ahead, matrix, next_line, records, vector
 from contact.kernels.geometry.prepare import rail_origin, turn
-from contact.kernels.records import GIVEN
+from contact.kernels.records import CONTACT, GIVEN, MAX_PATCHES
 from contact.kernels.rows import N_PROFILE_ROWS
 from contact_models.vehicle.kernels import motion
-from contact_models.vehicle.kernels.layout import ELASTIC, Book
+from contact_models.vehicle.kernels.between import (
+    TOLERANCE,
+    LastSolution,
+    Load,
+    count_around,
+    expect,
+    keep_solution,
+    take_expected,
+)
+from contact_models.vehicle.kernels.layout import Book
+from contact_models.vehicle.kernels.wheels import report_wheel, share_of_stick
 from ..tables import wheel_rail_pair as pair_table
 from ..tables.vehicle import TOTALS, WHEEL, table
 from ..variables import Causality, identifier
@@ -37,6 +48,7 @@ from .vehicle_parts import (
     track_after,
     write_motion,
 )
+from .wheel_rail_pair import layout_of
 from .wires import references
 
 
@@ -48,7 +60,10 @@ def _entry_of_pair(name: str) -> Any:
 
 _pair_memory, _pair_size = _entry_of_pair("memory"), _entry_of_pair("size")
 _pair_prepare, _pair_outputs = _entry_of_pair("prepare"), _entry_of_pair("outputs")
-_N_TOTALS, _N_GIVEN = len(TOTALS), GIVEN.itemsize // 8
+_arrange_pair = layout_of(pair_table.table()).arrange
+_N_TOTALS, _N_GIVEN, _N_CONTACT, _N_LOADS = len(TOTALS), GIVEN.itemsize // 8, CONTACT.itemsize // 8, len(Load)
+#: Numbers of a wheel that carry over from its last solution: those of `LastSolution`, its patches and their share of stick.
+_N_LAST = _N_GIVEN + 2 * _N_LOADS + 6 + MAX_PATCHES * _N_CONTACT + 1
 _POSITION, _BY_LOAD = (pair_table.LOAD_KIND.number(name) for name in ("Position", "NormalForce"))
 _WORST_STATUS = max(int(status) for status in Status)
 
@@ -64,9 +79,9 @@ _STARTS = np.array([scalar.first for scalar in _PAIR.scalars[:_N_ITS]], float)
 _SIDES = np.array([pair_table.SIDE.number(name) for name in ("Right", "Left")], float)
 #: Outputs of the pair that are copied: value reference of the pair, and position in `places` of the vehicle's row.
 _COPIED = np.array([(_PAIR.span[name].start, _AT.names.index(identifier(row))) for row, name in WHEEL.items()])
-#: Value references of the pair's rates of each total, and whether there is only one.
-_RATES = np.array([[_PAIR.span[rate].start for rate in (*rates, *rates)][:2] for _, _, rates in TOTALS.values()])
-_ALONE = np.array([len(rates) == 1 for _, _, rates in TOTALS.values()])
+#: Numbers of the totals that the pair has a rate of, and its value reference; numbers of those that are summed at every step.
+_RATES = np.array([(i, _PAIR.span[rate].start) for i, (_, _, rate) in enumerate(TOTALS.values()) if rate])
+_ENERGY, _T_GAMMA = (list(TOTALS).index(name) for name in ("energy", "T_gamma"))
 _TOTAL_AT = _AT.names.index(identifier(f"wheel[].total.{next(iter(TOTALS))}"))
 
 
@@ -77,6 +92,9 @@ class Contacts(NamedTuple):
     values: Any  # shape (2, values)
     memories: Any  # shape (wheels, size of a memory)
     totals: Any  # shape (totals, wheels)
+    last: Any
+    patches: Any  # of the last solution, MAX_PATCHES for each wheel
+    sticks: Any  # share of their area that sticks
     heights: Any  # of the wheelsets at the start
     work: Any  # pointer to all working memory
     values_at: Any  # place of the values in it, of the workspaces, and their size
@@ -97,6 +115,33 @@ def _starts(given):
 
 
 @arranging
+def _lay_last(work, at, end, n_wheels):
+    """Lay out the last solution of every wheel: what carries over from index `at` on, the rest from `end` on.
+
+    Return it, patches and shares of stick, and the new end.
+    """
+    asked, at = records(work, at, n_wheels, GIVEN)
+    answers, at = matrix(work, at, n_wheels, _N_LOADS)
+    drifts, at = matrix(work, at, n_wheels, _N_LOADS)
+    ages, at = vector(work, at, n_wheels)
+    paces, at = vector(work, at, n_wheels)
+    noises, at = vector(work, at, n_wheels)
+    powers, at = vector(work, at, n_wheels)
+    solutions, at = vector(work, at, n_wheels)
+    pending, at = vector(work, at, n_wheels)
+    patches, at = records(work, at, MAX_PATCHES * n_wheels, CONTACT)
+    sticks, at = vector(work, at, n_wheels)
+    expected, end = matrix(work, end, n_wheels, _N_LOADS)
+    slopes, end = vector(work, end, n_wheels)
+    loads, end = vector(work, end, n_wheels)
+    limits, end = vector(work, end, 2)
+    last = LastSolution(
+        asked, answers, drifts, expected, ages, paces, noises, powers, slopes, loads, solutions, pending, limits
+    )
+    return last, patches, sticks, end
+
+
+@arranging
 def _lay(values, work, given):
     """Return the vehicle, its contacts, the place of the turned rail and the total size in numbers."""
     resources, at = given.resources, _places(given)[0]
@@ -104,7 +149,8 @@ def _lay(values, work, given):
     memory, size = _pair_memory(values, resources, given.own), next_line(_pair_size(values, resources, given.own))
     track, n_track = track_after(resources, 2)
     totals, end = matrix(work, kept_by(at), _N_TOTALS, n_wheels)
-    memories, end = matrix(work, end, n_wheels, memory)
+    memories, at_last = matrix(work, end, n_wheels, memory)
+    last, patches, sticks, end = _lay_last(work, at_last, at_last + _N_LAST * n_wheels, n_wheels)
     parts, end = arrange(work, end, track, n_track, at, constants_of(given.own, at, _N_PLACES))
     heights, values_at = vector(work, end, at.n_axles)
     of_sides, end = matrix(work, values_at, 2, _N_ITS)
@@ -112,7 +158,7 @@ def _lay(values, work, given):
     n_rail = int(carray(ahead(resources, 1 + N_PROFILE_ROWS * n_wheel), (1,))[0])
     turned, end = matrix(work, end, N_PROFILE_ROWS, n_rail)
     works_at = next_line(end)
-    contacts = Contacts(of_sides, memories, totals, heights, work, values_at, works_at, size)
+    contacts = Contacts(of_sides, memories, totals, last, patches, sticks, heights, work, values_at, works_at, size)
     return parts, contacts, turned, works_at + 2 * size
 
 
@@ -136,17 +182,21 @@ def _prepare_pairs(v, contacts, given):
 
 
 @arranging
+def _of_side(contacts, w):
+    """Return pointers to the values and to the workspace of the side of wheel `w`."""
+    values_at = contacts.values_at + w % 2 * contacts.values.shape[1]
+    return ahead(contacts.work, values_at), ahead(contacts.work, contacts.works_at + w % 2 * contacts.size)
+
+
+@arranging
 def _solve(contacts, w, given):
     """Solve the contact of wheel `w` for the values of its side; return the pair's code."""
-    side, memory = w % 2, contacts.memories[w]
-    values_at = contacts.values_at + side * contacts.values.shape[1]
-    work_at = contacts.works_at + side * contacts.size
-    its_memory, _ = vector(contacts.work, work_at, memory.size)
+    memory = contacts.memories[w]
+    values, work = _of_side(contacts, w)
+    its_memory, _ = vector(work, 0, memory.size)
     for i in range(memory.size):
         its_memory[i] = memory[i]
-    code = _pair_outputs(
-        ahead(contacts.work, values_at), ahead(contacts.work, work_at), 0.0, given.resources, given.own
-    )
+    code = _pair_outputs(values, work, 0.0, given.resources, given.own)
     for i in range(memory.size):
         memory[i] = its_memory[i]
     return code
@@ -175,45 +225,61 @@ def _begin(v, at, parts, contacts, given):
 
 
 @arranging
-def _take(v, starts, values, wheel, w):
-    """Enter what the contact of wheel `w` does to the vehicle, and write its outputs."""
-    wheel.longitudinal, wheel.lateral = values[_ITS.force_x], values[_ITS.force_y]
-    wheel.vertical = -values[_ITS.force_z]
-    wheel.moment_x, wheel.moment_y = values[_ITS.moment_x], values[_ITS.moment_y]
-    wheel.moment_z, wheel.T_gamma = values[_ITS.moment_z], values[_ITS.damage_T_gamma]
-    wheel.status = values[_ITS.status]
-    wheel.normal, wheel.dissipation, wheel.elastic = 0.0, 0.0, 0.0
-    for k in range(int(values[_ITS.patches_count])):
-        n = values[_ITS.patch_n + k]
-        wheel.normal += n
-        wheel.elastic += ELASTIC * n * values[_ITS.patch_approach + k]
-        wheel.dissipation -= (
-            values[_ITS.patch_fx + k] * values[_ITS.patch_longitudinal + k]
-            + values[_ITS.patch_fy + k] * values[_ITS.patch_lateral + k]
-            + values[_ITS.patch_mz + k] * values[_ITS.patch_spin + k]
-        )
+def _n_patches(wheel):
+    """Return the number of patches of a wheel. A host can write anything into a state."""
+    return int(wheel.patches) if 0.0 < wheel.patches <= MAX_PATCHES else 0
+
+
+@arranging
+def _follow(v, starts, parts, contacts, w, h, given):
+    """Fill the forces of wheel `w` as `wheels.follow_wheel`; return its status or the code of a failure.
+
+    With h = 0 its contact is solved.
+    """
+    last, wheel, values = contacts.last, parts.scratch.wheels[w], contacts.values[w % 2]
+    patches = contacts.patches[w * MAX_PATCHES : (w + 1) * MAX_PATCHES]
+    its_values, its_work = _of_side(contacts, w)
+    bench, _, _ = _arrange_pair(carray(its_values, (_N_ITS,)), its_work, given)
+    asked, friction, paced = parts.scratch.given[w], parts.scratch.seats[w].friction, last.limits[0] > 1.0 and h > 0.0
+    near, n_before, counted = False, _n_patches(wheel), h
+    if paced:
+        near = expect(last, w, asked, friction, bench, patches, contacts.sticks[w], n_before)
+        if near and take_expected(last, w, h, wheel):
+            return int(wheel.status) if 0.0 <= wheel.status <= _WORST_STATUS else 0
+        counted = count_around(last, w, h)
+    numbers = carray(numbers_of(parts.scratch.given[w : w + 1]), (_N_GIVEN,))
+    for i in range(_N_GIVEN):
+        values[_ITS.pose_y + i] = numbers[i]
+    values[_ITS.friction_coefficient] = friction
+    code = _solve(contacts, w, given)
+    if code > _WORST_STATUS:
+        return code
+    n = int(bench.total[0].n_patches)
+    report_wheel(bench, n, wheel)
+    if paced:
+        keep_solution(last, w, asked, wheel, near and n == n_before)
+        for k in range(MAX_PATCHES):
+            patches[k] = bench.contacts[k]
+        contacts.sticks[w] = share_of_stick(bench.total[0])
     for i in range(_COPIED.shape[0]):
         v[starts[_COPIED[i, 1]] + w] = values[_COPIED[i, 0]]
+    for i in range(_RATES.shape[0]):
+        contacts.totals[_RATES[i, 0], w] += counted * abs(asked.vx) * values[_RATES[i, 1]]
+    return code
 
 
 @arranging
 def _press(v, parts, contacts, h, given):
-    """Solve all contacts, add up their totals over `h` [s]; return the worst status or the code of a failure."""
+    """Fill the forces of all wheels, add up their totals over `h` [s]; return the worst status or the code of a failure."""
     worst, starts = 0, _starts(given)
     for w in range(contacts.memories.shape[0]):
-        values = contacts.values[w % 2]
-        numbers = carray(numbers_of(parts.scratch.given[w : w + 1]), (_N_GIVEN,))
-        for i in range(_N_GIVEN):
-            values[_ITS.pose_y + i] = numbers[i]
-        values[_ITS.friction_coefficient] = parts.scratch.seats[w].friction
-        code = _solve(contacts, w, given)
+        code = _follow(v, starts, parts, contacts, w, h, given)
         if code > _WORST_STATUS:
             return code
         worst = max(worst, code)
-        _take(v, starts, values, parts.scratch.wheels[w], w)
-        for i in range(_N_TOTALS):
-            rate = values[_RATES[i, 0]]
-            contacts.totals[i, w] += h * (rate if _ALONE[i] else rate * abs(values[_RATES[i, 1]]))
+        wheel, speed = parts.scratch.wheels[w], abs(parts.scratch.given[w].vx)
+        contacts.totals[_ENERGY, w] += h * max(speed, parts.motions[w].slowest) * wheel.dissipation
+        contacts.totals[_T_GAMMA, w] += h * speed * wheel.T_gamma
     return worst
 
 
@@ -247,6 +313,10 @@ def _report(v, at, parts, contacts, total_at):
         wheel = parts.scratch.wheels[w]
         v[at.wheel_force_x + w], v[at.wheel_force_y + w] = wheel.longitudinal, wheel.lateral
         v[at.wheel_force_z + w] = -wheel.vertical
+        # what the last solution gave for these is that of its step
+        v[at.wheel_Q + w], v[at.wheel_Y + w] = wheel.vertical, wheel.lateral if w % 2 == 1 else -wheel.lateral
+        v[at.wheel_Y_over_Q + w] = v[at.wheel_Y + w] / wheel.vertical if wheel.vertical > 0.0 else 0.0
+        v[at.wheel_damage_T_gamma + w] = wheel.T_gamma
         for i in range(_N_TOTALS):
             v[total_at + 2 * at.n_axles * i + w] = contacts.totals[i, w]
 
@@ -254,7 +324,8 @@ def _report(v, at, parts, contacts, total_at):
 def model_memory(values, given):
     at = _places(given)[0]
     n_wheels = 2 * at.n_axles
-    return kept_by(at) + _N_TOTALS * n_wheels + n_wheels * _pair_memory(values, given.resources, given.own)
+    of_wheel = _N_TOTALS + _pair_memory(values, given.resources, given.own) + _N_LAST
+    return kept_by(at) + n_wheels * of_wheel
 
 
 def model_size(values, given):
@@ -271,7 +342,10 @@ def model_prepare(values, work, given):
     at_rail = 2 + N_PROFILE_ROWS * int(carray(given.resources, (1,))[0])
     turn(carray(ahead(given.resources, at_rail), turned.shape), -math.atan(v[at.rail_inclination]), turned)
     origin_y, origin_z, _ = rail_origin(turned, v[at.track_gauge], v[at.track_gauge_point])
-    fill(parts, constants_of(given.own, at, _N_PLACES), v[at.wheel_radius], origin_y, origin_z)
+    fill(parts, constants_of(given.own, at, _N_PLACES), v[at.wheel_radius], origin_y, origin_z, v[at.reference_speed])
+    contacts.last.limits[0], contacts.last.limits[1] = v[at.resolution_pace], TOLERANCE
+    for w in range(contacts.memories.shape[0]):
+        contacts.last.loads[w] = parts.model.bodies[parts.model.wheelsets[w // 2]].load
     return 0
 
 

@@ -10,7 +10,7 @@ from numba import carray
 from contact.compile.pointers import integers_of
 from contact.core import arranging, group
 from contact.kernels.block import ahead, cube, matrix, records, vector
-from contact.kernels.records import GIVEN, MOTION, SLOWEST
+from contact.kernels.records import GIVEN, MOTION
 from contact_models.vehicle.course import BEYOND
 from contact_models.vehicle.kernels.layout import (
     BODY,
@@ -30,6 +30,7 @@ from contact_models.vehicle.kernels.layout import (
 from .components import FARTHEST
 
 _INTEGER = np.dtype([("value", "i8")])
+_N_WHEEL = WHEEL.itemsize // 8
 _N_BODY, _N_LINK, _N_ELEMENT = BODY.itemsize // 8, LINK.itemsize // 8, ELEMENT.itemsize // 8
 _N_FRAME, _N_SUM, _N_BOOK, _N_ROW = len(TrackFrame), len(Sum), len(Book), len(TrackRow)
 
@@ -77,7 +78,7 @@ def constants_of(own, at, begin):
 def kept_by(at):
     """Return the number of values that carry over from step to step."""
     of_bodies = 1 + (3 * 6 * at.n_bodies) + 3 * at.n_elements
-    return of_bodies + (8 + 2 + 6) * at.n_axles + 2 * at.n_axles * _N_SUM + _N_BOOK
+    return of_bodies + (8 + 2 + 6) * at.n_axles + 2 * at.n_axles * (_N_SUM + _N_WHEEL) + _N_BOOK
 
 
 @arranging
@@ -97,11 +98,11 @@ def arrange(work, end, track, n_track, at, constants):
     books, to = vector(work, to, _N_BOOK)
     gains, to = matrix(work, to, n_axles, 6)
     forces, to = matrix(work, to, n_bodies, 6)  # of the last step, for the work of what holds the bodies
+    wheels, to = records(work, to, n_wheels, WHEEL)  # of the last step, for the next one that solves no contact
     own_links, end = records(work, end, at.n_links, LINK)
     frames, end = matrix(work, end, n_bodies, _N_FRAME)
     given, end = records(work, end, n_wheels, GIVEN)
     seats, end = records(work, end, n_wheels, SEAT)
-    wheels, end = records(work, end, n_wheels, WHEEL)
     power, end = vector(work, end, 3)
     motions, end = records(work, end, n_wheels, MOTION)
     surface, end = vector(work, end, 2)
@@ -120,7 +121,7 @@ def arrange(work, end, track, n_track, at, constants):
 
 
 @arranging
-def fill(parts, constants, radius, origin_y, origin_z):
+def fill(parts, constants, radius, origin_y, origin_z, slowest):
     """Fill what depends only on the parameters."""
     own = parts.model.links
     declared = records(constants.links, 0, own.size, LINK)[0]  # without rotations and offsets
@@ -129,7 +130,7 @@ def fill(parts, constants, radius, origin_y, origin_z):
     for w in range(parts.motions.size):
         here = parts.motions[w]
         here.radius, here.mirror = radius, 1.0 if w % 2 == 0 else -1.0
-        here.origin_y, here.origin_z, here.slowest = origin_y, origin_z, SLOWEST
+        here.origin_y, here.origin_z, here.slowest = origin_y, origin_z, slowest
 
 
 @arranging

@@ -6,13 +6,14 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
+from dataclasses import replace
 from functools import cache
 
 from contact_models.vehicle.declared import VehicleDeclaration, read
 from ..variables import Table, Variable, output, parameter, signal
 from . import vehicle
 from .vehicle import Starts, started
-from .wheel_rail_pair import MOTION
+from .wheel_rail_pair import MOTION, parameters
 
 #: What a pair answers.
 ANSWER = tuple(f"{kind}.{axis}" for kind in ("force", "moment") for axis in "xyz")
@@ -52,6 +53,7 @@ def _parameters(declared: VehicleDeclaration) -> Iterable[Variable]:
         start=0.5 * declared.gauge,
     )  # fmt: skip
     yield parameter("rail.origin_z", "Height of this origin, positive down from the rail's top", unit="m", start=0.0)
+    yield replace(next(row for row in parameters(1.0 / 40.0) if row.name == "reference_speed"), tunable=False)
 
 
 def _inputs(declared: VehicleDeclaration) -> Iterable[Variable]:

@@ -11,6 +11,7 @@ from dataclasses import replace
 from functools import cache
 
 from contact_models.vehicle.declared import VehicleDeclaration, read
+from contact_models.vehicle.kernels.between import LONGEST_PACE, PACE
 from ..variables import Attributes, Table, Variable, output, parameter, signal
 from . import solver, wheel_rail_pair
 
@@ -27,7 +28,7 @@ _HIDDEN_PAIR = (
         f"rail.{name}" for name in ("ky", "kz", "preload_y", "preload_z")
     ),  # the vehicle has rails of its own, with masses
 )
-SLOWEST = 0.5  # [m/s]
+FASTEST = 150.0  # [m/s]
 START = -12.0  # place of the vehicle's reference at the start [m]
 
 #: Motion of a body in the ideal track's frame, in the order of `contact_models.vehicle.kernels.layout.Axis`: unit and meaning.
@@ -47,12 +48,13 @@ WHEEL = {
         *(row.name for row in solver.damage("total")),
     )
 }
-#: Totals of a wheel: unit, meaning, and the outputs of the pair whose product is the rate.
+#: Totals of a wheel: unit, meaning, and the output of the pair that is its rate per metre, which a solution has for the steps
+#: around it; empty for a sum over all steps.
 TOTALS = {
-    "energy": ("J", "Frictional energy since start", ("power.friction",)),
-    "worn_volume": ("m3", "Volume worn off since start, Archard's law", ("damage.archard_volume", "velocity.x")),
-    "T_gamma": ("J", "Wear number times distance since start", ("damage.T_gamma", "velocity.x")),
-    "burstow": ("m", "Burstow's index times distance since start", ("damage.index_burstow", "velocity.x")),
+    "energy": ("J", "Frictional energy since start", ""),
+    "worn_volume": ("m3", "Volume worn off since start, Archard's law", "damage.archard_volume"),
+    "T_gamma": ("J", "Wear number times distance since start", ""),
+    "burstow": ("m", "Burstow's index times distance since start", "damage.index_burstow"),
 }
 
 
@@ -117,6 +119,15 @@ def _parameters(declared: VehicleDeclaration, inclination: float) -> Iterable[Va
         nominal=1e-4,
     )
 
+    yield parameter(
+        "resolution.pace",
+        "Most steps of the integration from one solution of a contact to the next; 1: every step solves all contacts",
+        integer=True,
+        start=PACE,
+        minimum=1,
+        maximum=LONGEST_PACE,
+    )
+
 
 def initial_distance() -> Variable:
     """Return the row of the place at the start."""
@@ -130,7 +141,14 @@ def initial_distance() -> Variable:
 
 def inputs() -> Iterable[Variable]:
     """Yield speed and friction."""
-    yield signal("speed", "Speed along the track", unit="m/s", start=15.0, minimum=SLOWEST, maximum=150.0)
+    yield signal(
+        "speed",
+        "Speed along the track, negative when rolling backwards; to stop set reference_speed to 10 m/s with steps of 0.2 ms",
+        unit="m/s",
+        start=15.0,
+        minimum=-FASTEST,
+        maximum=FASTEST,
+    )
     yield signal(
         "friction.coefficient",
         "Coefficient of friction, which the track's factors multiply",

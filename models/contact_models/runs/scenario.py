@@ -28,7 +28,7 @@ from ..vehicle.declared import find as find_vehicle
 from ..vehicle.declared import read as read_vehicle
 from ..vehicle.sections import RailSection
 from ..vehicle.simulation import LONGEST_PACE, PACE, SIDES
-from ..vehicle.track import FASTEST, SLOWEST, Speed, Track
+from ..vehicle.track import Speed, Track, require_forwards
 from . import reach
 from .origin import hashed
 from .slices import Rails
@@ -191,7 +191,7 @@ class Declaration:
         require_number("length", self.length, maximum=1e6)
         require_number("seed", self.seed, 0)
         if isinstance(self.speed, float):
-            require_number("speed", self.speed, SLOWEST, FASTEST)
+            require_forwards("speed", self.speed)
         as_friction(self.friction)  # checks a number
 
 

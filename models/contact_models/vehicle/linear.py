@@ -102,7 +102,7 @@ def state_matrix(
     def restore() -> None:
         for array, before in zip(state, kept, strict=True):
             array[:] = before
-        simulation.benches.held.ages[:] = 0  # contacts are solved at every displaced state
+        simulation.benches.last.ages[:] = 0  # contacts are solved at every displaced state
 
     def rates() -> Array:
         before = np.array([array[at] for array, at in moving])

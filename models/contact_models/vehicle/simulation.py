@@ -17,7 +17,7 @@ from contact.geometry.profile import Profile
 from contact.geometry.surfaces import SurfacePair, WheelSurface
 from contact.geometry.wheelset import Pair, Pose, Velocity
 from contact.inputs.material import STEEL, Material
-from contact.inputs.options import N_ELEMENTS, N_STRIPS
+from contact.inputs.options import N_ELEMENTS, N_STRIPS, REFERENCE_SPEED
 from contact.instance import workspace
 from contact.instance.ownership import OwnsArrays, one_thread
 from contact.kernels.enumerations import Height
@@ -26,20 +26,18 @@ from contact.kernels.records import GIVEN
 from contact.pair import WheelRailPair
 from contact.registry import DEFAULT_NORMAL, DEFAULT_TANGENTIAL
 from .assembly import Assembly, assemble
-from .crew import Crew
 from .declared import VehicleDeclaration
 from .kernels import motion
 from .kernels.benches import Benches, gather
-from .kernels.between import held
+from .kernels.between import LONGEST_PACE, PACE, TOLERANCE, last_solution
 from .kernels.frames import speed_at
-from .kernels.layout import Book, Model, Scratch, State, Sum, scratch
+from .kernels.layout import Book, Model, Scratch, State, Sum, TrackRow, scratch
 from .notebook import of_simulation
 from .sections import RailSection, require_apart
 from .uneven import Stretch, UnevenWheels
+from .wheel_threads import WheelThreads
 
 SIDES = ("right", "left")
-#: Largest pace that is allowed, and that of scenarios.
-LONGEST_PACE, PACE = 5, 4
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -48,7 +46,8 @@ class ContactOptions:
 
     With `pace` above 1 no more than `pace` steps lie between two solutions of a contact, and in between its forces change to
     first order (vehicle.md, 8). A contact whose forces were not met to `tolerance` times the static load, or that has
-    moved far, is solved at every step. Wheels that are not round always are.
+    moved far, is solved at every step; with `pace` = 1 all are, as wheels that are not round always. Creepages refer to a speed
+    of at least `reference_speed` [m/s]: with 10 m/s a vehicle can stop and stand at steps of 0.2 ms.
     """
 
     normal: str = DEFAULT_NORMAL
@@ -57,14 +56,16 @@ class ContactOptions:
     n_elements: int = N_ELEMENTS.usual
     material: Material = STEEL
     damage: DamageParameters | None = None
-    pace: int = 1
-    tolerance: float = 7e-4
+    pace: int = PACE
+    tolerance: float = TOLERANCE
+    reference_speed: float = REFERENCE_SPEED.usual
 
 
 class Simulation(OwnsArrays):
     """A vehicle that runs over a track.
 
-    It serves one thread. A copy, by `copy.copy` or a pickle, is in the same state.
+    Where its speed is negative it rolls backwards, and it may stand. It serves one thread. A copy, by `copy.copy` or a pickle,
+    is in the same state.
 
     Parameters
     ----------
@@ -123,6 +124,8 @@ class Simulation(OwnsArrays):
         self.vehicle, self._options, self._friction = vehicle, options or ContactOptions(), friction
         require_number("pace", self._options.pace, 1, LONGEST_PACE)
         require_number("tolerance", self._options.tolerance, 0.0, 1.0)
+        if (uneven or sections) and np.any(track[TrackRow.SPEED] < 0.0):
+            raise ContactError("speed: over wheels that are not round and rails of slices a vehicle runs forwards only")
         made: Assembly = assemble(vehicle)
         self.names = made.names
         n_wheels = 2 * made.wheelsets.size
@@ -151,13 +154,13 @@ class Simulation(OwnsArrays):
             for k, (wheel, rail) in enumerate(zip(wheels, rails, strict=True))
         ]
         loads = np.repeat(made.bodies["load"][made.wheelsets], 2)
-        self.benches: Benches = gather(self._pairs, held(loads, self._options.pace, self._options.tolerance))
+        self.benches: Benches = gather(self._pairs, last_solution(loads, self._options.pace, self._options.tolerance))
         for name, value in members.items():
             self.benches.cases[name] = value
         self._place(start)
         self.rotations = np.zeros(axles)
         arrays = self.model, self.state, self.benches, self.scratch
-        self._stepper: Crew | UnevenWheels
+        self._stepper: WheelThreads | UnevenWheels
         self._uneven_memories: dict[str, Array] = {}
         if uneven or sections:
             stretches = self._stretches(wheels, rails, uneven or {}, sections)
@@ -168,7 +171,7 @@ class Simulation(OwnsArrays):
                         stretch.pair.bench.case[name] = value
             self._stepper = UnevenWheels(*arrays, stretches, self.rotations)
         else:
-            self._stepper = Crew(*arrays, [pair.bench for pair in self._pairs[:threads]])
+            self._stepper = WheelThreads(*arrays, [pair.bench for pair in self._pairs[:threads]])
 
     def _pair(self, side: str, wheel: Profile, rail: Profile, ledger: Ledger) -> WheelRailPair:
         return self._solver(Pair(wheel, rail, **self._sizes(side)), ledger)
@@ -207,6 +210,7 @@ class Simulation(OwnsArrays):
             "gauge": v.gauge,
             "gauge_point": v.gauge_point,
             "flange_back": v.flange_back,
+            "reference_speed": self._options.reference_speed,
         }
 
     def _solver(self, pair: Pair | SurfacePair, ledger: Ledger | None = None) -> WheelRailPair:
@@ -275,7 +279,7 @@ class Simulation(OwnsArrays):
     @property
     def kept(self) -> dict[str, Array]:
         """All that carries over from one step to the next, by name; not copied."""
-        last = self.benches.held
+        last = self.benches.last
         return {
             **{f"state.{name}": array for name, array in self.state._asdict().items()},
             "forces": self.scratch.forces,
@@ -286,7 +290,7 @@ class Simulation(OwnsArrays):
             "asked": last.asked.view(np.float64),
             **{
                 name: getattr(last, name)
-                for name in ("answers", "drifts", "ages", "paces", "noises", "solutions", "pending")
+                for name in ("answers", "drifts", "ages", "paces", "noises", "powers", "solutions", "pending")
             },
             "pool": self.benches.pool,
             "rotations": self.rotations,

@@ -159,6 +159,24 @@ def _grown(s: float, over: float) -> tuple[float, float]:
     return t * t * (3.0 - 2.0 * t), 6.0 * t * (1.0 - t) / over
 
 
+def require_forwards(name: str, speed: float) -> None:
+    """Check the speed [m/s] of a scenario.
+
+    Raises
+    ------
+    ContactError
+        If it is outside its range. Where it is not above 0 the message says what rolls back.
+    """
+    try:
+        require_number(name, speed, SLOWEST, FASTEST)
+    except ContactError as error:
+        if not speed <= 0.0:
+            raise
+        raise ContactError(
+            f"{error}: a scenario runs forwards; `Simulation` and the FMU Vehicle stand and roll back"
+        ) from None
+
+
 @dataclass(frozen=True, kw_only=True)
 class Speed:
     """Speed over the distance, interpolated linearly.
@@ -180,7 +198,7 @@ class Speed:
         for k, place in enumerate(self.at):
             require_number(f"at[{k}]", place, self.at[k - 1] if k else -math.inf, open_minimum=k > 0)
         for k, value in enumerate(self.values):
-            require_number(f"values[{k}]", value, SLOWEST, FASTEST)
+            require_forwards(f"values[{k}]", value)
 
     def __call__(self, s: float) -> float:
         return float(np.interp(s, self.at, self.values))

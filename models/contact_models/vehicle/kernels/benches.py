@@ -20,7 +20,7 @@ from contact.kernels.block import part
 from contact.kernels.records import CASE, CONTACT, LEDGER, MAX_PATCHES, MOTION, TOTAL
 from contact.kernels.rows import N_LINE_ROWS, N_PROFILE_ROWS
 from contact.pair import WheelRailPair
-from .between import Held
+from .between import LastSolution
 
 Array = NDArray[np.float64]
 IntegerRows = Annotated[Any, Shape(np.int64, 2)]
@@ -58,10 +58,10 @@ class Benches(NamedTuple, Generic[Kind]):
     scratch: Numbers  # trace line, placed rail and both in the plane of a patch
     sizes: IntegerRows  # shape (wheels, len(Size))
     rows: int  # of the bins of a ledger
-    held: Held
+    last: LastSolution
 
 
-def gather(pairs: Sequence[WheelRailPair], last: Held) -> Benches:
+def gather(pairs: Sequence[WheelRailPair], last: LastSolution) -> Benches:
     """Return the benches of pairs that differ in profiles, sides and ledgers alone. `last` holds nothing.
 
     Raises
@@ -101,7 +101,7 @@ def gather(pairs: Sequence[WheelRailPair], last: Held) -> Benches:
         scratch=np.zeros(2 * (N_LINE_ROWS + N_PROFILE_ROWS) * most),
         sizes=sizes,
         rows=first.ledger.bins.shape[1],
-        held=last,
+        last=last,
     )
     for k, pair in enumerate(pairs):
         made.cases[k], made.motions[k] = pair.bench.case[0], pair.bench.search.motion[0]

@@ -2,9 +2,9 @@
 
 Most steps change a contact by little. Its solution costs a hundred times as much as that change to first order: the normal
 force follows the approach with Hertz's power, and creep forces follow the creepages with Kalker's stiffness on the part that
-sticks. What this leaves out is measured at every solution: its difference from what was expected. The next steps continue it
-as a linear drift, and its size says how many steps may pass until the next solution. A contact that has moved far is solved
-at once.
+sticks. What this leaves out is measured at every solution: its difference from what was expected. Where the approach has
+changed, the difference corrects the power of the normal force, elsewhere the next steps continue it as a linear drift. Its
+size says how many steps may pass until the next solution. A contact that has moved far is solved at once.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 
 from contact.core import group, kernel
 from contact.kernels import kalker
-from contact.kernels.arrays import Givens, Integers, Matrix, Numbers
+from contact.kernels.arrays import Givens, Matrix, Numbers
 from contact.kernels.geometry.search import axle
 from contact.kernels.records import GIVEN
 from .layout import ELASTIC
@@ -34,6 +34,13 @@ _EASY = 0.3
 _NEWEST, _LOUDEST = 0.01, 2.0
 #: Share of the error of the prediction that is added to the drift.
 _TAKEN = 0.5
+#: Hertz's power of the normal force over the approach, and the least and largest one of a contact that grows otherwise.
+_HERTZ, _LEAST_POWER, _LARGEST_POWER = 1.5, 1.0, 4.0
+
+
+#: Most steps from one solution of a contact to the next that may be asked for, and the default; tolerance of a predicted force
+#: over the static load.
+LONGEST_PACE, PACE, TOLERANCE = 5, 4, 7e-4
 
 
 class Load(IntEnum):
@@ -52,41 +59,43 @@ class Load(IntEnum):
 
 
 @group
-class Held(NamedTuple):
+class LastSolution(NamedTuple):
     """The last solution of every wheel, besides its contacts, and the prediction of the next."""
 
     asked: Givens  # one each
     answers: Matrix  # shape (wheels, len(Load))
     drifts: Matrix  # per step
     expected: Matrix
-    ages: Integers  # steps since the last solution; 0 where there is none
-    paces: Integers  # steps from the last solution to the next
+    ages: Numbers  # steps since the last solution; 0 where there is none
+    paces: Numbers  # steps from the last solution to the next
     noises: Numbers  # mean error of the predicted force after one step [N]
+    powers: Numbers  # of the normal force over the approach, less Hertz's 1.5
+    slopes: Numbers  # derivative of the expected normal force by the power [N]
     loads: Numbers  # static load [N]
-    solutions: Integers  # their number so far
-    pending: Numbers  # distance rolled of which the damage is not counted yet [m]; negative where it is counted ahead
-    pace: int  # the largest of `paces`; 1: every step is a solution
-    tolerance: float  # of a force, over the static load
+    solutions: Numbers  # their number so far
+    pending: Numbers  # what `count_around` has not counted yet; negative where it is counted ahead
+    limits: Numbers  # largest of `paces` (1: every step is a solution), and tolerance of a force over the static load
 
 
-def held(loads: Array, pace: int, tolerance: float) -> Held:
+def last_solution(loads: Array, pace: int, tolerance: float) -> LastSolution:
     """Return these arrays for wheels with static `loads` [N], before the first solution."""
     n = loads.size
     answers, drifts, expected = (np.zeros((n, len(Load))) for _ in range(3))
-    ages, paces, solutions = (np.zeros(n, np.int64) for _ in range(3))
-    return Held(
+    ages, paces, noises, powers, slopes, solutions, pending = (np.zeros(n) for _ in range(7))
+    return LastSolution(
         asked=np.zeros(n, GIVEN),
         answers=answers,
         drifts=drifts,
         expected=expected,
         ages=ages,
         paces=paces,
-        noises=np.zeros(n),
+        noises=noises,
+        powers=powers,
+        slopes=slopes,
         loads=loads,
         solutions=solutions,
-        pending=np.zeros(n),
-        pace=pace,
-        tolerance=tolerance,
+        pending=pending,
+        limits=np.array([float(pace), tolerance]),
     )
 
 
@@ -151,38 +160,44 @@ def _lever(axis, x, y, z, c, s):
 
 
 @kernel
-def predict(asked, now, seat, bench, n, row):
-    """Add to `row` the change of the loads of `n` contacts since the last solution. Return whether they have hardly moved.
+def _predict(asked, now, friction, bench, contacts, stick, power, n, row):
+    """Add to `row` the change of the loads of `n` contacts since the last solution.
 
-    `now` and `asked` are the inputs of the contacts now and at the last solution.
+    `now` and `asked` are the inputs of the contacts now and at the last solution, `stick` is the share of their area without
+    slip, `power` that of the normal force. Return whether they have hardly moved, and the derivative of the normal force by
+    the power [N].
     """
+    motion, slope = bench.search.motion[0], 0.0
     shear = bench.case[0].G * bench.case[0].slope
     c11, c22, _, _ = kalker.coefficients(bench.own.tables.kalker, 0.0)
     dy, dz, droll, dyaw = now.y - asked.y, now.z - asked.z, now.roll - asked.roll, now.yaw - asked.yaw
     before, after = axle(asked.roll, asked.yaw), axle(now.roll, now.yaw)
     lx, ly, lz = after
-    near, total = n > 0, bench.total[0]
-    stick = 1.0 - total.slip_area / total.area if total.area > 0.0 else 1.0
+    near = n > 0 and (asked.vx < 0.0) == (now.vx < 0.0)
+    speed = max(abs(now.vx), motion.slowest)
     for k in range(n):
-        contact = bench.contacts[k]
+        contact = contacts[k]
         if contact.N <= 0.0 or contact.approach <= 0.0:
             near = False
             continue
         c, s = math.cos(contact.angle), math.sin(contact.angle)
         x, y = contact.x, contact.y - asked.y
-        z = contact.z - asked.z + bench.search.motion[0].radius
+        z = contact.z - asked.z + motion.radius
         across = dy - droll * z + dyaw * x - (now.rail_y - asked.rail_y)
         down = dz + droll * y - (now.rail_z - asked.rail_z)
         deeper, aside = c * down - s * across, c * across + s * down
         near = near and abs(deeper) < _DEEPER * contact.approach and abs(aside) < _ASIDE
-        ratio = max(1.0 + deeper / contact.approach, 0.0) ** 1.5
+        closer = max(1.0 + deeper / contact.approach, 0.0)
+        ratio = closer**power
+        if closer > 0.0:
+            slope += contact.N * ratio * math.log(closer)
         before_x, before_y, before_z = _slip(asked, x, y, z)
         # the place on the wheel turns with the wheelset
         x_turned, y_turned, z_turned = x - dyaw * y, y + dyaw * x - droll * z, z + droll * y
         now_x, now_y, now_z = _slip(now, x_turned, y_turned, z_turned)
-        more_x = (now_x - before_x) / now.vx
-        more_y = (c * (now_y - before_y) + s * (now_z - before_z)) / now.vx
-        bound, ab = seat.friction * contact.N, contact.area / math.pi
+        more_x = (now_x - before_x) / speed
+        more_y = (c * (now_y - before_y) + s * (now_z - before_z)) / speed
+        bound, ab = friction * contact.N, contact.area / math.pi
         Fx, Fy = contact.Fx, contact.Fy
         if bound > 0.0 and ratio > 0.0:
             Fx, Fy = _creep_forces(contact, 0.5 * (c11 + c22) * shear * ab, bound, stick, (more_x, more_y), ratio)
@@ -207,32 +222,86 @@ def predict(asked, now, seat, bench, n, row):
         row[Load.ELASTIC] += ELASTIC * (contact.N * ratio * (contact.approach + deeper) - contact.N * contact.approach)
         row[Load.T_GAMMA] += abs(Fx * creep_x) + abs(Fy * creep_y)
         row[Load.T_GAMMA] -= abs(contact.Fx * contact.longitudinal) + abs(contact.Fy * contact.lateral)
+    return near, slope
+
+
+@kernel
+def expect(last, w, given, friction, bench, contacts, stick, n):
+    """Fill the loads that wheel `w` is expected to have now. Return whether its `n` contacts have hardly moved.
+
+    `contacts` and `stick` are those of the last solution, `bench` has the constants of its pair. Other arguments as for
+    `_predict`.
+    """
+    if last.ages[w] <= 0.0:
+        return False
+    expected = last.expected[w]
+    for i in range(expected.size):
+        expected[i] = last.answers[w, i] + last.ages[w] * last.drifts[w, i]
+    power = _HERTZ + last.powers[w]
+    near, slope = _predict(last.asked[w], given, friction, bench, contacts, stick, power, n, expected)
+    last.slopes[w] = slope
     return near
 
 
 @kernel
-def update_prediction(last, w, wheel, near):
-    """Compare the solution of wheel `w` with its prediction, and set drift and pace until the next solution.
+def take_expected(last, w, amount, wheel):
+    """Give wheel `w` the loads of `expect` if it need not be solved yet; return whether it has them.
 
-    `near` says whether there was a prediction.
+    `amount` is what `count_around` counts.
+    """
+    if last.ages[w] >= last.paces[w]:
+        return False
+    set_loads(last.expected[w], wheel)
+    last.ages[w] += 1.0
+    last.pending[w] += amount
+    return True
+
+
+@kernel
+def count_around(last, w, amount):
+    """Return the amount for which the solution of wheel `w` at this step counts, of which each step has `amount`.
+
+    It counts for half of the steps since the last one and half of those until the next one, whose number is the present pace.
+    If the next solution comes earlier or later, it corrects the difference.
+    """
+    due = amount + last.pending[w]
+    counted = max(due + 0.5 * (max(last.paces[w], 1.0) - 1.0) * amount, 0.0)
+    last.pending[w] = due - counted
+    return counted
+
+
+@kernel
+def keep_solution(last, w, given, wheel, near):
+    """Compare the solution of wheel `w` with what was expected, and set drift, power and pace until the next solution.
+
+    `near` says whether anything was expected.
     """
     answer, drift, expected = last.answers[w], last.drifts[w], last.expected[w]
     read_loads(wheel, answer)
-    last.solutions[w] += 1
+    last.solutions[w] += 1.0
+    age = last.ages[w]
+    last.asked[w] = given
+    last.ages[w] = 1.0
     if not near:
         drift[:] = 0.0
-        last.paces[w] = 1
+        last.powers[w], last.paces[w] = 0.0, 1.0
         return
     missed = max(
         abs(answer[Load.X] - expected[Load.X]),
         max(abs(answer[Load.Y] - expected[Load.Y]), abs(answer[Load.Z] - expected[Load.Z])),
     )
+    allowed = last.limits[1] * last.loads[w]
+    # The more the approach has changed against what else is not known, the more of the error is that of the power.
+    slope, unknown = last.slopes[w], allowed + last.noises[w]
+    by_power = slope * slope / (slope * slope + unknown * unknown)
+    if by_power > 0.0:
+        power = last.powers[w] + by_power * (answer[Load.NORMAL] - expected[Load.NORMAL]) / slope
+        last.powers[w] = min(max(power, _LEAST_POWER - _HERTZ), _LARGEST_POWER - _HERTZ)
     for i in range(drift.size):
-        drift[i] += _TAKEN * (answer[i] - expected[i]) / last.ages[w]
-    allowed = last.tolerance * last.loads[w]
-    if last.ages[w] == 1:  # no pace is better than that
+        drift[i] += _TAKEN * (1.0 - by_power) * (answer[i] - expected[i]) / age
+    if age == 1.0:  # no pace is better than that
         last.noises[w] += _NEWEST * (min(missed, _LOUDEST * allowed) - last.noises[w])
     if missed > allowed + 2.0 * last.noises[w]:
-        last.paces[w] = 1
+        last.paces[w] = 1.0
     elif missed < _EASY * allowed + last.noises[w]:
-        last.paces[w] = min(last.paces[w] + 1, last.pace)
+        last.paces[w] = min(last.paces[w] + 1.0, last.limits[0])

@@ -69,7 +69,7 @@ def lay_frames(model: Model, s: float, speed: float, frames: Matrix) -> None:
         direction += d * (curvature + 0.5 * growth * d)
         cant, cant_slope = smooth(track, TrackRow.CANT, k, t, width)
         turning = speed * (curvature + growth * d)
-        frame[TrackFrame.DIRECTION], frame[TrackFrame.CANT] = direction, cant
+        frame[TrackFrame.DIRECTION], frame[TrackFrame.CANT], frame[TrackFrame.CANT_SLOPE] = direction, cant, cant_slope
         frame[TrackFrame.COS], frame[TrackFrame.SIN] = math.cos(direction), math.sin(direction)
         frame[TrackFrame.COS_CANT], frame[TrackFrame.SIN_CANT] = math.cos(cant), math.sin(cant)
         frame[TrackFrame.RATE_X] = speed * cant_slope

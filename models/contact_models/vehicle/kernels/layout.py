@@ -42,6 +42,7 @@ class TrackFrame(IntEnum):
     RATE_Z = 8
     DIRECTION = 9  # [rad], clockwise seen from above
     CANT = 10  # [rad], positive where the left rail is higher
+    CANT_SLOPE = 11  # [rad/m]
 
 
 class TrackRow(IntEnum):

@@ -7,10 +7,10 @@ import math
 from contact.core import entry, kernel
 from contact.kernels.arrays import Bench, Given, Search, SurfaceSearch
 from contact.kernels.enumerations import Height, Status
+from contact.kernels.flexible import solve_flexible
 from contact.kernels.geometry.search import axle
-from contact.kernels.pair import solve_pair
 from .benches import Benches, bench_of
-from .between import predict, set_loads, update_prediction
+from .between import count_around, expect, keep_solution, take_expected
 from .frames import linear, place_on, smooth
 from .layout import (
     ELASTIC,
@@ -69,10 +69,10 @@ def fill_inputs(model, state, s, motions, scratch):
 def solve_contact(bench: Bench[SurfaceSearch], given: Given, here: Seat, wheel: Wheel) -> int:
     """Solve the contact of one wheel for the inputs of `fill_inputs`. Fill `wheel`; return as `solve_pair`."""
     case = bench.case[0]
-    case.mu, case.kinetic, case.speed = here.friction, here.kinetic, given.vx
-    n = solve_pair(Height.GIVEN.value, 0.0, given, bench)
+    case.mu, case.kinetic, case.speed = here.friction, here.kinetic, abs(given.vx)
+    n = solve_flexible(Height.GIVEN.value, 0.0, given, bench)
     if n >= 0:
-        _report(bench, n, wheel)
+        report_wheel(bench, n, wheel)
     return n
 
 
@@ -89,31 +89,19 @@ def follow_wheel(benches: Benches[Search], scratch: Scratch, w: int) -> int:
     ``benches.settings[w].distance`` is the distance of this step of which the damage is counted [m]. A solution counts for the
     steps around it. Returns as `solve_wheel`.
     """
-    last, given, wheel, setting = benches.held, scratch.given[w], scratch.wheels[w], benches.settings[w]
-    if last.pace <= 1:
+    last, given, wheel, setting = benches.last, scratch.given[w], scratch.wheels[w], benches.settings[w]
+    if last.limits[0] <= 1.0:
         return solve_wheel(benches, scratch, w)
-    near, n_before = False, int(wheel.patches)
-    if last.ages[w] > 0:
-        expected = last.expected[w]
-        for i in range(expected.size):
-            expected[i] = last.answers[w, i] + last.ages[w] * last.drifts[w, i]
-        near = predict(last.asked[w], given, scratch.seats[w], bench_of(benches, w), n_before, expected)
-        if near and last.ages[w] < last.paces[w]:
-            set_loads(expected, wheel)
-            last.ages[w] += 1
-            last.pending[w] += setting.distance
-            return n_before
-    # A solution counts for half of the steps since the last one and half of those until the next one, whose number is the
-    # present pace. If the next solution comes earlier or later, it corrects the difference.
-    rolled, due = setting.distance, setting.distance + last.pending[w]
-    setting.distance = max(due + 0.5 * (max(last.paces[w], 1) - 1) * rolled, 0.0)
-    last.pending[w] = due - setting.distance
+    total, n_before, rolled = benches.totals[w], int(wheel.patches), setting.distance
+    bench = bench_of(benches, w)
+    near = expect(last, w, given, scratch.seats[w].friction, bench, bench.contacts, share_of_stick(total), n_before)
+    if near and take_expected(last, w, rolled, wheel):
+        return n_before
+    setting.distance = count_around(last, w, rolled)
     n = solve_wheel(benches, scratch, w)
     setting.distance = rolled
     if n >= 0:
-        update_prediction(last, w, wheel, near and n == n_before)
-        last.asked[w] = given
-        last.ages[w] = 1
+        keep_solution(last, w, given, wheel, near and n == n_before)
     return n
 
 
@@ -136,13 +124,15 @@ def add_wheel_forces(model, state, motions, scratch):
     for w in range(scratch.wheels.size):
         i = model.wheelsets[w // 2]
         q, forces, wheel, here = state.q[i], scratch.forces[i], scratch.wheels[w], scratch.seats[w]
-        yaw, speed = scratch.given[w].yaw, state.u[i, Axis.X]
+        yaw = scratch.given[w].yaw
+        # creepages refer to this speed, so that times the dissipation per metre is the power
+        speed = max(abs(state.u[i, Axis.X]), motions[w].slowest)
         Fx, Fy, Fz = wheel.longitudinal, wheel.lateral, -wheel.vertical
         Mx, My, Mz = wheel.moment_x, wheel.moment_y, wheel.moment_z
         lx, ly, lz = axle(q[Axis.ROLL], yaw)
         climbing = Mx + q[Axis.Y] * Fz - (q[Axis.Z] - motions[w].radius) * Fy
-        ramp = scratch.frames[i, TrackFrame.RATE_X]
-        forces[Axis.X] += Fx - Fy * here.along_y - Fz * here.along_z - ramp / speed * climbing
+        slope = scratch.frames[i, TrackFrame.CANT_SLOPE]
+        forces[Axis.X] += Fx - Fy * here.along_y - Fz * here.along_z - slope * climbing
         forces[Axis.Y] += Fy
         forces[Axis.Z] += Fz
         forces[Axis.ROLL] += Mx * math.cos(yaw) + My * math.sin(yaw)
@@ -153,7 +143,13 @@ def add_wheel_forces(model, state, motions, scratch):
 
 
 @kernel
-def _report(bench, n, wheel):
+def share_of_stick(total):
+    """Return the share of the area of all patches that sticks, 1 without any."""
+    return 1.0 - total.slip_area / total.area if total.area > 0.0 else 1.0
+
+
+@kernel
+def report_wheel(bench, n, wheel):
     """Fill forces, power and energy of one wheel from its `n` patches."""
     total, largest = bench.total[0], 0
     wheel.longitudinal, wheel.lateral, wheel.vertical = total.Fx, total.Fy, -total.Fz

@@ -23,7 +23,7 @@ from .wheels import follow_wheel
 
 
 class Counter(IntEnum):
-    """Counters of a crew, each in a cache line of its own."""
+    """Counters of the threads, each in a cache line of its own."""
 
     NEXT = 0  # wheel of the list; the list is closed from the number of wheels on
     SOLVED = 8

@@ -30,7 +30,7 @@ def test_no_bit_of_a_run_depends_on_the_number_of_threads():
     alone.advance(STEP, 1000)
     for threads in (2, 3, 8):
         together = shared(threads)
-        for steps in (1, 0, 399, 600):  # a crew is called again and again
+        for steps in (1, 0, 399, 600):  # they are called again and again
             together.advance(STEP, steps)
         for name, array in alone.state._asdict().items():
             np.testing.assert_array_equal(getattr(together.state, name), array, err_msg=name)
@@ -38,7 +38,7 @@ def test_no_bit_of_a_run_depends_on_the_number_of_threads():
         np.testing.assert_array_equal(together.benches.memories, alone.benches.memories)
 
 
-def test_a_wheel_that_leaves_its_rail_ends_a_crew_with_the_same_message():
+def test_a_wheel_that_leaves_its_rail_ends_all_threads_with_the_same_message():
     said = []
     for threads in (1, 2):
         run = shared(threads)

@@ -10,12 +10,12 @@ import numpy as np
 from contact.core import pack
 from contact.instance.ownership import OwnsArrays, one_thread
 from contact.kernels.arrays import Bench, Search
-from .kernels import crew, motion
+from .kernels import motion, wheel_threads
 from .kernels.benches import Benches
 from .kernels.layout import Model, Scratch, State
 
 
-class Crew(OwnsArrays):
+class WheelThreads(OwnsArrays):
     """One thread, or several, that advance a vehicle.
 
     Parameters
@@ -36,7 +36,7 @@ class Crew(OwnsArrays):
             for memory in memories[1:]
         ]
         self._n_wheels = scratch.wheels.size
-        self._counters = np.zeros(crew.N_LINE, np.int64)
+        self._counters = np.zeros(wheel_threads.N_LINE, np.int64)
         self._codes = np.zeros(scratch.wheels.size, np.int64)
 
     @one_thread
@@ -45,11 +45,16 @@ class Crew(OwnsArrays):
         if not self._helpers:
             return int(motion.advance(*self._arrays, h, steps))
         scratch, shared = self._arrays[-1], (self._counters, self._codes)
-        self._counters[crew.Counter.NEXT], self._counters[crew.Counter.ENDED] = self._n_wheels, 0  # the list is closed
-        helpers = [threading.Thread(target=crew.serve, args=(memory, scratch, *shared)) for memory in self._helpers]
+        self._counters[wheel_threads.Counter.NEXT], self._counters[wheel_threads.Counter.ENDED] = (
+            self._n_wheels,
+            0,
+        )  # the list is closed
+        helpers = [
+            threading.Thread(target=wheel_threads.serve, args=(memory, scratch, *shared)) for memory in self._helpers
+        ]
         for helper in helpers:
             helper.start()
-        code = crew.lead(*self._arrays, *shared, h, steps)
+        code = wheel_threads.lead(*self._arrays, *shared, h, steps)
         for helper in helpers:
             helper.join()
         return int(code)
