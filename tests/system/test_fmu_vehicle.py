@@ -107,11 +107,12 @@ def forces_of(whole: Simulation) -> np.ndarray:
 def test_the_fmu_gives_the_run_of_the_one_kernel(folder, options, place, force):
     """Communication steps of ten steps of the integration. The start amid irregularities lifts wheels."""
     whole, fmu = one_kernel(options), Slave(folder, options)
-    for _ in range(MANY // 10):
+    many = MANY if options.pace == 1 else 4 * MANY  # until the vehicle is calm enough
+    for _ in range(many // 10):
         whole.advance(STEP, 10)
         fmu.step(10 * STEP)
     if options.pace > 1:
-        assert whole.benches.last.solutions.mean() < 0.9 * MANY
+        assert whole.benches.last.solutions.mean() < 0.9 * many
     assert np.abs(np.diff(whole.wheels["vertical"])).max() > 100.0  # the wheels differ
     assert np.abs(fmu.motion - whole.state.q).max() <= place
     assert np.abs(fmu.forces - forces_of(whole)).max() <= force

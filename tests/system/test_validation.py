@@ -165,7 +165,7 @@ def test_in_fmi_3_a_vehicle_on_given_forces_is_driven_by_arrays(native_vehicles,
     assert np.ptp(arrays["body[4].yaw"]) > 1e-6
     _, driven = read(three / "OpenVehicle_in_arrays.csv")
     given = read_csv(two / "OpenVehicle_in.csv")
-    assert len(driven) == 48
+    assert len(driven) == 32  # forces along x, y, z and moments about z vary
     assert all(np.array_equal(values, given[name]) for name, values in driven.items())
     assert "OpenVehicle_in_arrays.csv" in (three / "README.md").read_text()
 

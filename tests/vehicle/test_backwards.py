@@ -48,8 +48,8 @@ def vehicle(rows: np.ndarray, start: float, options: ContactOptions = FAST, **mo
     return Simulation(read("manchester"), rows, profile.s1002(), profile.rail_60e1(), 0.3, options, start=start, **more)
 
 
-@pytest.mark.parametrize("options", [FAST, PACED], ids=["every step", "paced"])
-def test_backwards_is_forwards_on_the_track_read_from_its_other_end(options):
+@pytest.mark.parametrize(("options", "place"), [(FAST, 2e-9), (PACED, 5e-7)], ids=["every step", "paced"])
+def test_backwards_is_forwards_on_the_track_read_from_its_other_end(options, place):
     rows = fading(lay(ROUGH, 100.0, lambda s: -15.0, (1,), 5.0), 60.0, 70.0)
     back, ahead = vehicle(rows, 85.0, options), vehicle(read_from_the_other_end(rows), -85.0, options)
     for sim in (back, ahead):
@@ -59,7 +59,7 @@ def test_backwards_is_forwards_on_the_track_read_from_its_other_end(options):
     # the last wheelset comes first
     order = [0, 2, 1, 6, 5, 4, 3]
     assert [back.model.bodies["place"][i] for i in order] == pytest.approx(list(-ahead.model.bodies["place"]))
-    np.testing.assert_allclose(back.state.q[order], TURNED * ahead.state.q, atol=2e-8)
+    np.testing.assert_allclose(back.state.q[order], TURNED * ahead.state.q, atol=place)
     wheels = np.arange(8)[::-1]
     for name in ("vertical", "longitudinal", "lateral", "dissipation", "T_gamma"):
         factor = -1.0 if name in ("longitudinal", "lateral") else 1.0
@@ -87,7 +87,7 @@ def test_a_vehicle_brakes_to_rest_stands_and_rolls_back(options):
     assert np.abs(forces[200:225, 1]).max() < 4e3  # of 16 kN: what holds the bogies as they swing
     assert sim.distance == pytest.approx(0.45 - 0.2, abs=0.02)
     spins = sim.state.u[sim.model.wheelsets, 4]
-    assert spins == pytest.approx(1.0 / 0.46, rel=0.02)
+    assert spins == pytest.approx(1.0 / 0.46, rel=0.1)  # creep forces are small below the reference speed
     assert sim.state.books[Book.DISSIPATED] >= 0.0
 
 
