@@ -137,7 +137,7 @@ class _FilePair(TransientPair):
 
     def _solved(self, patch: SurfacePatch, at: Instant) -> Solved:
         if not self.conformal:
-            patch = flattened(patch, self.pair, self._pose, self.outlines, self.case["DS"])
+            patch = flattened(patch, self.pair, self._pose, self.outlines, patch.gap.dy)
         if not (self.case.digits["M"] in pressed.SIMPLIFIED and self.case.digits["T"]):
             return super()._solved(patch, at)
         if self._backwards(patch, at):
@@ -190,7 +190,7 @@ class _FilePair(TransientPair):
         return replace(found, status=Status.NOT_CONVERGED) if best[0] > _MISSED * vertical else found
 
     def _true(self, patch: SurfacePatch) -> Elements:
-        rows = bent.elements(self.pair, patch, self._pose, self.outlines, self.case["DS"]) if self.conformal else None
+        rows = bent.elements(self.pair, patch, self._pose, self.outlines, patch.gap.dy) if self.conformal else None
         return super()._true(patch) if rows is None else rows
 
     def _slip(self, rows: Elements, at: Instant) -> Array:

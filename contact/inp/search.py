@@ -45,6 +45,11 @@ _BEYOND, _LEAST = 3e-3, 1e-16
 _ABSENT = 1e-3  # [m] by which elements without a rail lie above the highest other one
 
 
+#: Number of elements along a side that is not made less, and most doublings.
+_FEW, _DOUBLED = 10, 20
+Box = tuple[float, float, float, float]
+
+
 class Found(NamedTuple):
     """Where CONTACT puts a patch.
 
@@ -189,9 +194,9 @@ class Search:
         """Return a patch on CONTACT's elements where it was found; None without overlap."""
         frame = Frame.turned(found.at, found.angle)
         across = np.sort((found.ends - frame.origin[1:]) @ frame.axes[1, 1:])
-        (back, front), (dx, ds) = np.array(found.along) - found.at[0], self.steps
-        box = float(back) - dx, float(front) + dx, float(across[0]) - ds, float(across[1]) + ds
-        division = self._division(found)
+        (back, front), (low, high) = np.array(found.along) - found.at[0], across
+        edges = float(back), float(front), float(low), float(high)
+        division, box = self._division(found, edges)
         x, y = division.centres(box)
         h = within(self.pair.distance)(frame, x, y)
         far = division.clear(box, x, y, h, AWAY)
@@ -220,19 +225,37 @@ class Search:
             rolling_radius=radius,
         )
 
-    def _division(self, found: Found) -> Lattice:
-        """Return the elements: in steps those of the last one, else with one at the reference point."""
-        division = self.pair.division
-        if not isinstance(division, Lattice) or self.case.digits["T"] not in (1, 2):
-            return Lattice.centred(self.steps)
-        station = float(self.pair.space.motion[0].station)
-        return division.placed(station + float(found.at[0]), self._on_rail(found)[0])
+    def _division(self, found: Found, edges: Box) -> tuple[Lattice, Box]:
+        """Return the elements, and the range that they cover: one element more than the overlap on each side.
+
+        In steps they are those of the last one, else one lies at the reference point. There elements are doubled until there
+        are less than NPOT_MAX.
+        """
+        division, (dx, ds) = self.pair.division, self.steps
+        if isinstance(division, Lattice) and self.case.digits["T"] in (1, 2):
+            station = float(self.pair.space.motion[0].station)
+            placed = division.placed(station + float(found.at[0]), self._on_rail(found)[0])
+            return placed, _wider(edges, dx, ds)
+        for _ in range(_DOUBLED):
+            lattice, box = Lattice.centred((dx, ds)), _wider(edges, dx, ds)
+            columns, rows = (
+                math.ceil(box[k + 1] / step) - math.floor(box[k] / step) + 1 for k, step in ((0, dx), (2, ds))
+            )
+            if columns * rows < self.case["NPOT_MAX"] or max(columns, rows) <= _FEW:
+                break
+            dx, ds = dx * (2.0 if columns > _FEW else 1.0), ds * (2.0 if rows > _FEW else 1.0)
+        return lattice, box
 
     def _on_rail(self, found: Found) -> tuple[float, float]:
         """Return the reference point in the rail's profile [m]."""
         rail_y, rail_z, roll = self.rail.place
         y, z = found.at[1] - rail_y, found.at[2] - rail_z
         return y * math.cos(roll) + z * math.sin(roll), z * math.cos(roll) - y * math.sin(roll)
+
+
+def _wider(edges: Box, dx: float, ds: float) -> Box:
+    """Return a range with a step more on each side."""
+    return edges[0] - dx, edges[1] + dx, edges[2] - ds, edges[3] + ds
 
 
 def _multiples(first: float, step: float, box: tuple[float, float]) -> Array:

@@ -14,7 +14,7 @@ PAIR = """\
  1203000
  00{D}2033 {second}
  0001321
-   999 100 30 1 1e-5
+   999 100 30 1 1e-5 {most}
  .3 .3
  .28 .28 82000. 82000.
  {dx} {dx} 1.0 90d 8.0 4.0
@@ -41,8 +41,8 @@ def solved(tmp_path):
         lines = ["0.0 1.0", f"{len(at)}", "0 0 0", "1", *(f"{u:.6f} '{one}'" for u in at)]
         (tmp_path / name).write_text("\n".join(lines) + "\n")
 
-    def values(rail="rail.prr2", wheel="wheel.prw2", D=2, dx=0.4, yaw=0.0, second=""):
-        text = PAIR.format(rail=rail, wheel=wheel, D=D, dx=dx, yaw=yaw, second=second)
+    def values(rail="rail.prr2", wheel="wheel.prw2", D=2, dx=0.4, yaw=0.0, second="", most=20000):
+        text = PAIR.format(rail=rail, wheel=wheel, D=D, dx=dx, yaw=yaw, second=second, most=most)
         (tmp_path / "case.inp").write_text(text)
         result = inp.solve(inp.read(tmp_path / "case.inp"))[0]
         (patch,) = result.patches
@@ -92,6 +92,12 @@ def test_linear_weights_move_the_reference_point_and_not_the_force(solved):
     squared, linear = solved(), solved(second="11")
     assert abs(linear["YCP(TR)"] - squared["YCP(TR)"]) > 1e-5
     assert linear["FN"] == pytest.approx(squared["FN"], rel=3e-3)
+
+
+def test_elements_are_doubled_until_there_are_less_than_npot_max(solved):
+    many, few = solved(), solved(most=400)
+    assert few["NCON"] < 0.3 * many["NCON"]
+    assert few["FN"] == pytest.approx(many["FN"], rel=0.02)
 
 
 #: A wheel with a round profile of 10 mm in a groove, under 10 kN. Numbers from CONTACT 25.1 (its groove_r1010).
