@@ -194,6 +194,15 @@ def test_a_circle_by_a_string_is_found(tmp_path, monkeypatch):
     assert circle({f"tests.{path.stem}": set(map(module_of, fixed_imports(path))) for path in (one, other)})
 
 
+def test_no_source_is_longer_than_400_lines():
+    """The header of records is generated."""
+    folders = (*FOLDERS, "explorer")
+    files = [path for folder in folders for end in ("py", "c", "h", "js") for path in (ROOT / folder).rglob(f"*.{end}")]
+    lines = {path: path.read_text(encoding="utf-8").count("\n") for path in files if path.name != "wheelrail_records.h"}
+    assert len(lines) > 600
+    assert [str(path.relative_to(ROOT)) for path, n in lines.items() if n > 400] == []
+
+
 def test_every_page_that_a_source_names_exists():
     pages = {
         path.name for folder in ("docs", "reference", "examples", "models") for path in (ROOT / folder).rglob("*.md")

@@ -35,6 +35,10 @@ class OwnsArrays:
         made._made_of, made._turn = (given, options), Lock()
         return made
 
+    def take_turns_with(self, other: OwnsArrays | Lock) -> None:
+        """Let one thread at a time use this object or the `other`, which writes the same arrays."""
+        self._turn = other._turn if isinstance(other, OwnsArrays) else other
+
     def again(self) -> Self:
         """Return another object that is made of the same, without what this one has computed."""
         return _made(type(self), *self._made_of)

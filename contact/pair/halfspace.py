@@ -104,7 +104,7 @@ class HalfspacePair(AnyPair):
         if not isinstance(layer, ThirdBody | None):
             raise ContactError(f"layer = {layer!r} is not a contact.ThirdBody")
         self.pair, self.layer = pair.again(), layer
-        self._turn = self.pair._turn
+        self.take_turns_with(self.pair)
         self._depth: float | None = None
         self._share = 1.0
 

@@ -85,7 +85,7 @@ class RollerRig(AnyPair):
         if not isinstance(pair, Pair):
             raise ContactError(f"pair = {pair!r} is not a contact.geometry.wheelset.Pair")
         self.pair = pair.again()
-        self._turn = self.pair._turn
+        self.take_turns_with(self.pair)
         self.radius = require_number("radius", radius, 0.05, 10.0)
         self.offset = require_number("offset", offset, -0.1 * radius, 0.1 * radius)
         between = self.radius + pair.nominal_radius

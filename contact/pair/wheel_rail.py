@@ -109,8 +109,8 @@ class WheelRailPair(AnyPair):
                 raise ContactError(f"{name} = {given!r} is no {kind.__module__}.{kind.__name__}")
         self.pair = pair.again()  # so that two of these can have one pair
         if ledger is not None:
-            self.pair._turn = turn_of(ledger.bins)
-        self._turn = self.pair._turn
+            self.pair.take_turns_with(turn_of(ledger.bins))
+        self.take_turns_with(self.pair)
         self._methods: dict[str, Any] = {
             "normal": normal,
             "tangential": tangential,

@@ -27,7 +27,7 @@ ROOT = Path(__file__).parents[2]
 NAME = "WheelRailContact"
 HOST = Path(__file__).with_name("host")
 _FMI2 = ("fmi2.c", "calls.c", "runs.c", "speed.c")
-_FMI3 = ("fmi3.c",)
+_FMI3 = ("fmi3.c", "calls_fmi3.c")
 #: Platform name in a version of FMI → platform name of the builder, and sources of the host.
 PLATFORMS = {
     "linux64": ("linux64", _FMI2),

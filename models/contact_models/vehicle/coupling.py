@@ -64,7 +64,7 @@ class OpenVehicle(OwnsArrays):
             simulation.model, simulation.state, simulation.scratch, simulation.benches.motions
         )  # fmt: skip
         self._arguments = pack(Model, model), pack(State, state), pack(Motions, motions), pack(Scratch, scratch)
-        self._turn = simulation._turn
+        self.take_turns_with(simulation)
         self._late: Array | None = None  # answers to the questions of the step before
 
     def __copy__(self) -> OpenVehicle:
