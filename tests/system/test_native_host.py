@@ -59,23 +59,23 @@ def test_every_state_meets_every_function_in_fmi_3(host_fmi3):
 def test_no_wrong_call_ends_the_host(hosts, name, tmp_path):
     """A NULL for every pointer of every function of both versions is an Error; random calls return. Each trial is a process.
 
-    1000 random sequences of calls of each version and 1000 forged states, twenty times as many in `make soak`.
+    100 random sequences of calls of each version and 100 forged states, 20 000 in `make soak`.
     """
-    trials = 20_000 if "SOAK" in os.environ else 1000
+    trials = 20_000 if "SOAK" in os.environ else 100
     said = hosts("linux64", name).wrong_calls(tmp_path, trials)
     (of_2, wrong_2), (of_3, wrong_3) = (map(int, found) for found in re.findall(r"(\d+) functions, (\d+) wrong", said))
     assert of_2 == 39
     assert of_3 > 60
     assert min(wrong_2, wrong_3) > 500
     (taken,) = re.findall(rf"(\d+) of {trials} forged states taken", said)
-    assert int(taken) > 100  # so they have been tried
+    assert int(taken) > trials // 10  # so they have been tried
 
 
 @pytest.mark.parametrize("name", [*ROLES, *ATTACKED])
 def test_hard_circumstances_end_no_host(hosts, name, tmp_path):
     """A failed allocation is told and the next instance is whole; 128 kB of stack suffice; fork and reload change no digit."""
-    if name in ("Vehicle", "OpenVehicle") and "SOAK" not in os.environ:
-        pytest.skip(f"{name} MEETS NO HARDSHIP: run by make soak")
+    if name != "WheelRailPair" and "SOAK" not in os.environ:
+        pytest.skip(f"{name} MEETS NO HARDSHIP: all FMUs have one wrapper; run by make soak")
     counts = [int(n) for n in re.findall(r"(\d+) allocations", hosts("linux64", name).hardships(tmp_path))]
     assert len(counts) == 2
     assert min(counts) > 4

@@ -92,15 +92,14 @@ def test_all_fmus_have_one_library(native):
 
 
 def test_packing_loads_no_compiler(native, tmp_path):
-    """Neither numba nor zig, nor the modules that call them."""
+    """Neither numba nor zig, nor the modules that call them; tried with the pair, which has resources of its own."""
     code = f"""
 import sys
 from contextlib import suppress
 from pathlib import Path
 from contact_fmu.catalogue import models
 from contact_fmu.native import packaging
-for model in models(30):
-    packaging.build(model, Path({str(tmp_path)!r}))
+packaging.build(models(30)[2], Path({str(tmp_path)!r}))
 loaded = {{"numba", "llvmlite", "ziglang", "fmpy", "contact.compile.emit", "contact.compile.linking"}} & set(sys.modules)
 sys.exit(", ".join(loaded) or 0)
 """

@@ -4,7 +4,6 @@ import ctypes
 import faulthandler
 import os
 import sys
-from pathlib import Path
 
 import pytest
 from fmu_instance import Instance
@@ -41,11 +40,10 @@ PAIRS = {
 }
 
 
-def trapped(folder: Path, values: dict) -> int:
-    """Return the status of a process that initialises and steps an instance with traps: 0, or the signal that ended it."""
+def trapped(fmu: Instance, values: dict) -> int:
+    """Return the status of a process that initialises and steps its copy of an instance with traps: 0, or what ended it."""
     child = os.fork()
     if child == 0:
-        fmu = Instance(folder)
         fmu.update(values)
         fmu.fmu.setupExperiment(startTime=0.0)
         fmu.fmu.enterInitializationMode()
@@ -60,10 +58,10 @@ def trapped(folder: Path, values: dict) -> int:
 
 
 @pytest.fixture(scope="module")
-def folders(native, unzipped):
+def instances(native, unzipped):
     if not sys.platform.startswith("linux"):
         pytest.skip("TRAPS ARE NOT TESTED: feenableexcept is a function of glibc")
-    return {name: unzipped(native.with_name(f"{name}.fmu")) for name in ("WheelRailContact", "WheelRailPair")}
+    return {name: Instance(unzipped(native.with_name(f"{name}.fmu"))) for name in ("WheelRailContact", "WheelRailPair")}
 
 
 def test_a_trap_would_be_seen():
@@ -79,18 +77,18 @@ def test_a_trap_would_be_seen():
 
 
 @pytest.mark.parametrize("case", CONTACTS)
-def test_no_method_traps(folders, case):
+def test_no_method_traps(instances, case):
     normal, tangential = METHODS
     pairs = [(n, tangential.index("fastrip_mapped")) for n in range(len(normal))]
     pairs += [(normal.index("strip_halfspace"), t) for t in range(len(tangential))]
     ended = {}
     for n, t in pairs:
         chosen = {"method.normal": n + 1, "method.tangential": t + 1}
-        if how := trapped(folders["WheelRailContact"], {**CONTACTS[case], **chosen}):
+        if how := trapped(instances["WheelRailContact"], {**CONTACTS[case], **chosen}):
             ended[normal[n], tangential[t]] = how
     assert not ended
 
 
 @pytest.mark.parametrize("case", PAIRS)
-def test_no_position_of_a_wheel_traps(folders, case):
-    assert trapped(folders["WheelRailPair"], PAIRS[case]) == 0
+def test_no_position_of_a_wheel_traps(instances, case):
+    assert trapped(instances["WheelRailPair"], PAIRS[case]) == 0

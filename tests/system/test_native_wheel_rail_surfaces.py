@@ -3,6 +3,7 @@
 import shutil
 import subprocess
 import sys
+from functools import cache
 from pathlib import Path
 
 import fmpy
@@ -57,15 +58,30 @@ CASES = {
 }  # fmt: skip
 
 
+@cache
+def resources_of(case: str) -> dict[str, bytes]:
+    return surfaces.of_pair(CASES[case][0]())
+
+
+@pytest.fixture(scope="module")
+def folders(native_surfaces, tmp_path_factory) -> list[Path]:
+    """Return the folders of the unzipped FMUs of FMI 2.0 and 3.0, whose resources tests replace."""
+    place = tmp_path_factory.mktemp("unzipped")
+    return [
+        Path(fmpy.extract(str(path), str(place / f"with blanks, ümläuts {k}")))
+        for k, path in enumerate(native_surfaces)
+    ]
+
+
 @pytest.fixture
-def open_fmu(native_surfaces, tmp_path):
+def open_fmu(folders):
     """Return a function that instantiates the FMU with other resources. All instances are freed at the end."""
     instances = []
 
     def open_fmu(new: dict[str, bytes], version: int = 2, kind: str = "CoSimulation"):
-        path = Path(shutil.copy(native_surfaces[version - 2], tmp_path))
-        surfaces.exchange(path, new)
-        folder = Path(fmpy.extract(str(path), str(tmp_path / f"with blanks, ümläuts {len(instances)}")))
+        folder = folders[version - 2]
+        for name, content in new.items():
+            (folder / "resources" / name).write_bytes(content)
         instances.append(Instance(folder, kind=kind) if version == 2 else Instance3(folder, kind=kind))
         return instances[-1]
 
@@ -104,7 +120,7 @@ def solved(pair: WheelRailPair, values: dict[str, float], station: float, rotati
 def test_the_fmu_gives_the_solvers_result_along_the_way(open_fmu, case):
     make, sweep, given = CASES[case]
     pair, values = make(), start_values(given)
-    fmu, reference = open_fmu(surfaces.of_pair(pair)), solver(pair)
+    fmu, reference = open_fmu(resources_of(case)), solver(pair)
     fmu.update(values)
     fmu.initialize()
     patches = set()
@@ -119,8 +135,8 @@ def test_the_fmu_gives_the_solvers_result_along_the_way(open_fmu, case):
 
 
 def test_fmi_3_gives_the_same(open_fmu):
-    make, sweep, given = CASES["crossing"]
-    content, values = surfaces.of_pair(make()), start_values(given)
+    _, sweep, given = CASES["crossing"]
+    content, values = resources_of("crossing"), start_values(given)
     one, other = open_fmu(content), open_fmu(content, version=3)
     one.update(values)
     other.update(values)
@@ -134,8 +150,8 @@ def test_fmi_3_gives_the_same(open_fmu):
 
 def test_outputs_do_not_depend_on_the_searches_before(open_fmu):
     """Grids of the last search serve again only for the same place, so a state goes on as if it had never been left."""
-    make, sweep, given = CASES["crossing"]
-    fmu = open_fmu(surfaces.of_pair(make()))
+    _, sweep, given = CASES["crossing"]
+    fmu = open_fmu(resources_of("crossing"))
     fmu.update(start_values({**given, "method.normal": 1}))
     fmu.initialize()
 
@@ -151,7 +167,7 @@ def test_outputs_do_not_depend_on_the_searches_before(open_fmu):
 
 def test_directional_derivatives_follow_station_and_rotation(open_fmu):
     """On a smooth polygon they are those of wider central differences, within 2 %."""
-    fmu = open_fmu(surfaces.of_pair(CASES["polygon"][0]()), kind="ModelExchange")
+    fmu = open_fmu(resources_of("polygon"), kind="ModelExchange")
     fmu.update(start_values({"load.kind": 2, "pose.rotation": 0.05}))
     fmu.update({"pose.z": 0.0})
     fmu.initialize()
@@ -179,7 +195,7 @@ def packed(kind: str, numbers: np.ndarray) -> bytes:
 
 def spoilt(fault: str) -> dict[str, bytes]:
     """Return the resources of a crossing with a fault that the checksum does not show."""
-    content = surfaces.of_pair(CASES["crossing"][0]())
+    content = resources_of("crossing")
     rail = numbers_of(content[RAIL])
     slices, paths = int(rail[0]), int(rail[1])
     runs = HEAD + slices + 12 * slices * paths
@@ -250,7 +266,7 @@ def test_a_damaged_surface_is_refused_when_instantiated(native_surfaces, tmp_pat
 
 
 def test_extreme_inputs_give_finite_outputs_or_none(open_fmu):
-    fmu = open_fmu(surfaces.of_pair(CASES["crossing"][0]())).initialize()
+    fmu = open_fmu(resources_of("crossing")).initialize()
 
     def chosen(rng):
         return {"method.normal": 1, "load.kind": int(rng.integers(1, 3)), "pose.station": rng.uniform(0.0, 0.5)}

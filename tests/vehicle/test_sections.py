@@ -155,14 +155,15 @@ def scenario(tmp_path):
 
 @pytest.mark.usefixtures("undrawn")
 def test_scenario_with_a_crossing_runs_resumes_and_says_where_damage_is_not_counted(scenario):
-    whole, halved = VehicleRun(read_scenario(scenario)), VehicleRun(read_scenario(scenario))
+    given = read_scenario(scenario)
+    whole, resumed = VehicleRun(given), VehicleRun(given)
+    for _ in range(15):  # to a place on the slices
+        whole.advance()
+    assert whole.simulation.on_surfaces.tolist() == [True, False]
+    kept = whole.save()
     while not whole.done:
         whole.advance()
-    for _ in range(15):  # it stops on the slices
-        halved.advance()
-    assert halved.simulation.on_surfaces.tolist() == [True, False]
-    resumed = VehicleRun(read_scenario(scenario))
-    resumed.restore(halved.save())
+    resumed.restore(kept)
     while not resumed.done:
         resumed.advance()
     found = result.dataset(whole)
@@ -192,21 +193,33 @@ def test_wrong_slices_are_refused(table, message, scenario):
         read_scenario(scenario)
 
 
-def test_fingerprint_changes_with_the_slices(scenario):
-    before = read_scenario(scenario).fingerprint
-    first = scenario.parent / "slice060.txt"
+@pytest.fixture
+def short(tmp_path):
+    """Write a scenario beside a rail of three slices, which is read faster than the crossing, and return its path."""
+    lines = [f"{at} 'slice{k}.txt'" for k, at in enumerate((0.0, 300.0, 600.0))]
+    (tmp_path / "crossing.slcs").write_text("\n".join(["0 1", "3", "0 0 0", "1", *lines]) + "\n")
+    for k in range(3):
+        np.savetxt(tmp_path / f"slice{k}.txt", 1e3 * RAIL, fmt="%.6f")
+    path = tmp_path / "crossing.toml"
+    path.write_text(SCENARIO + SLICES)
+    return path
+
+
+def test_fingerprint_changes_with_the_slices(short):
+    before = read_scenario(short).fingerprint
+    first = short.parent / "slice1.txt"
     np.savetxt(first, np.loadtxt(first) + np.array([0.0, 0.01]))
-    assert read_scenario(scenario).fingerprint != before
+    assert read_scenario(short).fingerprint != before
 
 
-def test_wear_and_fmus_refuse_slices(scenario, capsys, monkeypatch):
-    path = scenario.parent / "set.toml"
+def test_wear_and_fmus_refuse_slices(short, capsys, monkeypatch):
+    path = short.parent / "set.toml"
     path.write_text('name = "s"\nmileage = 1e6\n[[scenarios]]\nfile = "crossing.toml"\nweight = 1.0\n')
     with pytest.raises(ContactError, match=r"set.toml: crossing.toml.rails: a study of wear takes no flats.*slices"):
         declared_set.read(path)
     with pytest.raises(ContactError, match=r"crossing.toml.rails: the FMUs of a vehicle take no .*slices"):
-        catalogue.vehicles(scenario)
-    monkeypatch.setattr("sys.argv", ["track", str(scenario.parent / "none.fmu"), str(scenario)])
+        catalogue.vehicles(short)
+    monkeypatch.setattr("sys.argv", ["track", str(short.parent / "none.fmu"), str(short)])
     with pytest.raises(SystemExit):
         track.main()
     assert "crossing.toml.rails: the FMUs of a vehicle take no flats, polygons and slices" in capsys.readouterr().err

@@ -114,13 +114,13 @@ def test_energy_of_an_impact_is_kept(two_turns):
 def test_scenario_with_a_flat_runs_resumes_and_leaves_out_the_damage_of_its_wheel(tmp_path):
     path = tmp_path / "flat.toml"
     path.write_text(SCENARIO + FLAT)
-    whole, halved = VehicleRun(read_scenario(path)), VehicleRun(read_scenario(path))
+    whole, resumed = VehicleRun(read_scenario(path)), VehicleRun(read_scenario(path))
+    for _ in range(5):
+        whole.advance()
+    kept = whole.save()
     while not whole.done:
         whole.advance()
-    for _ in range(5):
-        halved.advance()
-    resumed = VehicleRun(read_scenario(path))
-    resumed.restore(halved.save())
+    resumed.restore(kept)
     while not resumed.done:
         resumed.advance()
     assert result.dataset(resumed).identical(result.dataset(whole))
