@@ -37,24 +37,9 @@ class Locus(NamedTuple):
 
 def locus(pair: SurfacePair, pose: Pose, wheel: Outline, rail: Rail, view: Frame, y: Array) -> Locus:
     """Return the locus over the rows `y` of a view, which is turned about x at most. All in right-side form."""
-    turn, origin = standing(pair, pose)
-    axes, to = view.axes @ turn, view.axes @ (origin - view.origin)
-    (across, z), (rate_y, rate_z) = wheel.points.T, wheel.rates.T
-    in_view = across * axes[1, 1] + z * axes[1, 2] + to[1]
-    near = (in_view > y[0] - _BESIDE) & (in_view < y[-1] + _BESIDE) & (np.abs(rate_y) > 1e-3)
-    points = _Points(across[near], z[near], (rate_z / np.where(np.abs(rate_y) > 1e-3, rate_y, 1.0))[near])
-    placed = _Placed(points, pair.nominal_radius, axes, to)
-    if rail.roller is not None:
-        at = placed.at(_on_roller(placed, rail, view))
-        height = rail.at(view, at[:, 0], at[None, :, 1])[0]
-    elif rail.straight:
-        # where the wheel is lowest along the rail
-        r = placed.radius + points.z
-        x = placed.bounded((r * points.slope * axes[0, 1] - placed.radius * axes[0, 2]) / axes[0, 0])
-        at = placed.at(x)
-        height = np.zeros(x.size)
-    else:
-        at = placed.at(_nearest(placed, rail, view, _available(pair, rail, in_view[near], view)))
+    at = points_of(pair, pose, wheel, view, (float(y[0]) - _BESIDE, float(y[-1]) + _BESIDE), rail)
+    height = np.zeros(at.shape[0])
+    if not rail.straight or rail.roller is not None:
         height = rail.at(view, at[:, 0], at[None, :, 1])[0]
     order = np.argsort(at[:, 1])
     order = order[np.isfinite(height[order])]
@@ -63,6 +48,28 @@ def locus(pair: SurfacePair, pose: Pose, wheel: Outline, rail: Rail, view: Frame
     if rail.straight and rail.roller is None:
         depth = depth - rail.heights(view, np.zeros(1), y)[:, 0]
     return Locus(x_there, np.nan_to_num(depth))
+
+
+def points_of(
+    pair: SurfacePair, pose: Pose, wheel: Outline, view: Frame, box: tuple[float, float], rail: Rail
+) -> Array:
+    """Return the places in a view of the points of a wheel's profile, turned to the locus, within a box of y, (n, 3) [m]."""
+    turn, origin = standing(pair, pose)
+    axes, to = view.axes @ turn, view.axes @ (origin - view.origin)
+    (across, z), (rate_y, rate_z) = wheel.points.T, wheel.rates.T
+    in_view = across * axes[1, 1] + z * axes[1, 2] + to[1]
+    near = (in_view > box[0]) & (in_view < box[1]) & (np.abs(rate_y) > 1e-3)
+    points = _Points(across[near], z[near], (rate_z / np.where(np.abs(rate_y) > 1e-3, rate_y, 1.0))[near])
+    placed = _Placed(points, pair.nominal_radius, axes, to)
+    if rail.roller is not None:
+        x = _on_roller(placed, rail, view)
+    elif rail.straight:
+        # where the wheel is lowest along the rail
+        r = placed.radius + points.z
+        x = placed.bounded((r * points.slope * axes[0, 1] - placed.radius * axes[0, 2]) / axes[0, 0])
+    else:
+        x = _nearest(placed, rail, view, _available(pair, rail, in_view[near], view))
+    return placed.at(x)
 
 
 class _Points(NamedTuple):

@@ -157,10 +157,12 @@ class _FilePair(TransientPair):
 
     def _solution(self, patches: Sequence[SurfacePatch], at: Instant) -> PairSolution:
         """Return the solution of patches as CONTACT separates them: beyond D_SEP each counts for itself, and fully."""
-        limit = self.case["D_SEP"]
+        search, limit = self._search(), self.case["D_SEP"]
         kept = [p for p in patches if p.share == 1.0 or not lobes.reaches_over(p.gap, p.approach, limit)]
-        alone = [replace(p, share=1.0) for p in kept]
-        return super()._solution(Search(self.pair, self._pose, self.outlines, self.case).patches(alone), at)
+        return super()._solution(search.patches(kept), at)
+
+    def _search(self) -> Search:
+        return Search(self.pair, self._pose, self.outlines, self.case)
 
     def _under(self, vertical: float, at: Instant) -> PairSolution:
         """Return the solution under a vertical force, from whole solutions at heights, of which few are needed.
@@ -171,10 +173,14 @@ class _FilePair(TransientPair):
         target = vertical ** (2.0 / 3.0)
         tried: list[tuple[float, float]] = []
         found: PairSolution | None = None
+        within(self.pair.found)(Height.PENETRATION, 0.0)
+        search = self._search()
+        touch = self.pair.z - (search.deepest() if search.by_locus else 0.0)
 
         def residual(depth: float) -> float:
             nonlocal found
-            found = self._solution(within(self.pair.found)(Height.PENETRATION, depth), at)
+            self.pair.space.motion[0].z = touch + depth
+            found = self._solution(() if search.by_locus else within(self.pair.found)(), at)
             tried.append((abs(found.Q - vertical), depth))
             return 0.0 if tried[-1][0] <= _TOLERANCE * vertical else max(found.Q, 0.0) ** (2.0 / 3.0) - target
 

@@ -17,6 +17,8 @@ from contact.inp.outline import Outline, Outlines, across, in_frame, over
 
 #: Number of nodes of a cross-section on each side of a range that its spline needs, and steps of Newton's iterations in nodes.
 _BESIDE, _STEP = 24, 4.0
+#: Points of an outline for each of its nodes.
+_FINE = 4
 
 
 class Rail:
@@ -102,6 +104,18 @@ class Rail:
     def slopes(self, frame: Frame, y: Array) -> Array:
         """Return the slope of the outline at x = 0 over rows of a frame [rad]."""
         return over(self.here, y, frame, self.place)[1]
+
+    def top(self, frame: Frame) -> tuple[Array, Array]:
+        """Return y and height of the outline at x = 0 in a frame, where y increases from its top outwards [m]."""
+        outline = self.here
+        points, _ = outline.at(np.linspace(0.0, outline.s[-1], _FINE * outline.s.size))
+        turn, to = in_frame(frame, self.place)
+        y, z = frame.axes[1:, 1:] @ turn @ points + to[:, None]
+        first = int(z.argmin())
+        before, behind = np.minimum.accumulate(y[first::-1])[::-1], np.maximum.accumulate(y[first:])
+        outwards = np.concatenate((before, behind[1:]))
+        new = np.concatenate(([True], np.diff(outwards) > 0.0))
+        return outwards[new], z[new]
 
     def first(self, frame: Frame, k: int) -> float:
         """Return the place across a frame of point `k` of the outline at x = 0 [m]."""

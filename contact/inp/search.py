@@ -12,24 +12,25 @@ from __future__ import annotations
 
 import itertools
 import math
-from collections.abc import Sequence
-from dataclasses import replace
+from collections.abc import Callable, Sequence
 from typing import NamedTuple
 
 import numpy as np
 
 from contact.arrays import Array
+from contact.errors import ContactError
 from contact.geometry.records import Pose
 from contact.geometry.surfaces import SurfacePair, SurfacePatch
 from contact.geometry.surfaces.frame import Frame
 from contact.halfspace import Gap
 from contact.halfspace.lattice import Lattice
 from contact.inp.case import Case
-from contact.inp.locus import locus
+from contact.inp.locus import locus, points_of
 from contact.inp.nodes import bilinear
 from contact.inp.outline import Outline, Outlines, standing
 from contact.inp.rail import Rail
 from contact.inp.sliced import SlicedWheel, about, near, odd
+from contact.inputs.creepage import Creepage
 from contact.instance.ownership import within
 from contact.kernels.geometry.section import AWAY
 
@@ -42,6 +43,8 @@ _LENGTH, _LONG, _SMALL, _ALONG = 0.125, 0.242, 0.0305, 1.5
 _ACROSS, _STEEP, _LOCUS = 0.75, 0.3, 0.3
 #: [m] by which the search looks beyond a patch; least weight of a place [m²].
 _BEYOND, _LEAST = 3e-3, 1e-16
+#: Distance at which points of the wheel are looked at, and how far beyond them [m].
+_NEAR, _BESIDE = 1e-4, 1.5e-3
 _ABSENT = 1e-3  # [m] by which elements without a rail lie above the highest other one
 
 
@@ -78,18 +81,55 @@ class Search:
         self.on_mesh = case["SEARCH"] in (5, 6, 9)
         self.steps: tuple[float, float] = case["DX"], case["DS"]
 
+    @property
+    def by_locus(self) -> bool:
+        """Whether contacts are sought along the whole locus; else only where the library's search has found some."""
+        return self.wheel is not None and not self.on_mesh and self.rail.straight
+
     def patches(self, patches: Sequence[SurfacePatch]) -> list[SurfacePatch]:
-        """Return patches where CONTACT puts them, on its elements, without those that its search does not see."""
-        seen = [(patch, found) for patch in patches if (found := self._found(patch)) is not None]
+        """Return the patches of CONTACT on its elements; `patches` are those that the library's search has found."""
+        if self.by_locus:
+            lobes = [one for view, box in self._boxes() for one in self._locus(view, box, apart=True)]
+            found = joined(lobes, (self.case["D_SEP"], self.case["A_SEP"]), self._height)
+        else:
+            found = [one for patch in patches for one in self._found(patch)]
         limits = self.case["D_SEP"], self.case["D_TURN"], self.case["A_SEP"]
-        angles = turned([found for _, found in seen], limits)
         placed = (
-            self._placed(patch, found._replace(angle=angle)) for (patch, found), angle in zip(seen, angles, strict=True)
+            self._placed(one._replace(angle=angle)) for one, angle in zip(found, turned(found, limits), strict=True)
         )
         return [patch for patch in placed if patch is not None]
 
-    def _found(self, patch: SurfacePatch) -> Found | None:
-        """Return where the search puts a patch; None if it misses it."""
+    def deepest(self) -> float:
+        """Return the largest depth along the whole locus [m], negative where the bodies are apart; 0 if it is not found."""
+        depths = [self._depths(view, box)[2] for view, box in self._boxes()]
+        return max((float(depth.max()) for depth in depths if depth.size), default=0.0)
+
+    def _boxes(self) -> list[tuple[Frame, tuple[float, float]]]:
+        """Return views at places of the rail and the ranges of y there in which the wheel is near or within it [m]."""
+        whole = Frame(np.array([0.0, *self.rail.place[:2]]), np.eye(3))
+        at = points_of(self.pair, self.pose, self._round, whole, (-math.inf, math.inf), self.rail)
+        y, z = self.rail.top(whole)
+        height = self.rail.bent(whole, at[:, 0], np.interp(at[:, 1], y, z, left=np.nan, right=np.nan))
+        depth = np.nan_to_num(at[:, 2] - height, nan=-1.0)
+        near = np.flatnonzero(depth > min(-_NEAR, float(depth.max()) - _NEAR))
+        places = np.sort(at[near, 1])
+        boxes = []
+        for run in np.split(places, np.flatnonzero(np.diff(places) > 2.0 * _BESIDE) + 1):
+            middle = 0.5 * float(run[0] + run[-1])
+            origin = whole.origin + np.array([0.0, middle, float(np.interp(middle, y, z))])
+            boxes.append(
+                (Frame(origin, np.eye(3)), (float(run[0]) - middle - _BESIDE, float(run[-1]) - middle + _BESIDE))
+            )
+        return boxes
+
+    @property
+    def _round(self) -> Outline:
+        if self.wheel is None:
+            raise ContactError("a wheel with slices has no locus")
+        return self.wheel
+
+    def _found(self, patch: SurfacePatch) -> list[Found]:
+        """Return where the search puts a patch; none if it misses it."""
         mirror = 1.0 if self.pair.side == "right" else -1.0
         seen = patch.frame if mirror > 0.0 else patch.frame.mirrored
         inside = (patch.gap.h < patch.approach).any(axis=1)
@@ -99,12 +139,20 @@ class Search:
         view = Frame.turned(seen.origin * [0.0, 1.0, 1.0], 0.0)
         box = float(rows.min()) - _BEYOND, float(rows.max()) + _BEYOND
         if self.wheel is None or self.on_mesh:
-            return self._brute(view, box, seen.origin[0] + patch.gap.x[[0, -1]])
-        return self._locus(self.wheel, view, box)
+            found = self._brute(view, box, seen.origin[0] + patch.gap.x[[0, -1]])
+            return [] if found is None else [found]
+        return self._locus(view, box)
 
     def _heights(self, frame: Frame, y: Array) -> Array:
         """Return the heights of the rail over the axis x = 0 of a frame [m]."""
         return self.rail.heights(frame, np.zeros(1), y)[:, 0]
+
+    def _height(self, x: float, y: float) -> float:
+        """Return the height of the rail at a place of the track [m]."""
+        whole = Frame(np.array([x, *self.rail.place[:2]]), np.eye(3))
+        crown = np.interp(y - whole.origin[1], *self.rail.top(whole))
+        view = Frame(np.array([x, y, whole.origin[2] + float(crown)]), np.eye(3))
+        return float(view.origin[2] + self._heights(view, np.zeros(1))[0])
 
     def _finished(
         self,
@@ -166,31 +214,43 @@ class Search:
         points = np.stack(np.broadcast_arrays(u, y, np.sqrt((radius + z) ** 2 - u**2) - radius), axis=-1)
         return np.asarray((points @ turn.T + (origin - view.origin)) @ view.axes.T)
 
-    def _locus(self, wheel: Outline, view: Frame, box: tuple[float, float]) -> Found | None:
-        """Return where a patch lies by the least distance at each y; the wheel's curvature stands for that along the track."""
-        step, curvature = _LOCUS * self.steps[1], 0.5 / self.pair.nominal_radius
+    def _depths(self, view: Frame, box: tuple[float, float]) -> tuple[Array, Array, Array]:
+        """Return rows y in a box, x of the locus there, and the depth [m]."""
+        y = _multiples(self.rail.first(view, 0), _LOCUS * self.steps[1], box)
+        if y.size == 0:
+            return y, y, y
+        return y, *locus(self.pair, self.pose, self._round, self.rail, view, y)
+
+    def _locus(self, view: Frame, box: tuple[float, float], apart: bool = False) -> list[Found]:
+        """Return where patches lie by the least distance at each y; lobes of a box are one, or each by itself.
+
+        The wheel's curvature stands for that along the track.
+        """
+        curvature = 0.5 / self.pair.nominal_radius
         if self.rail.roller is not None:
             curvature += 0.5 / self.rail.roller
-        first = self.rail.first(view, 0)
-        y = _multiples(first, step, box)
-        at, depth = locus(self.pair, self.pose, wheel, self.rail, view, y)
-        touching = depth > 0.0
-        if not touching.any():
-            return None
-        i = np.flatnonzero(touching)
-        across = np.array([_zero(y, depth, i[0] - 1, i[0]), _zero(y, depth, i[-1] + 1, i[-1])])
-        at, depth = np.where(touching, at, 0.0), np.where(touching, depth, 0.0)
-        # the integral over x of the depth, or of its square, of a parabola
-        half = np.sqrt(depth / curvature)
+        y, at, depth = self._depths(view, box)
+        k = np.flatnonzero(depth > 0.0)
+        if k.size == 0:
+            return []
         power = 1.0 if self.case.digits["WEIGHTING"] == 1 else 2.0
-        weight = depth**power * half
-        total = float(weight.sum())
         slopes = np.nan_to_num(self.rail.slopes(view, y))
-        mean = float((weight * at).sum()) / total, float((weight * y).sum()) / total
-        along = float((at - half)[touching].min()), float((at + half)[touching].max())
-        return self._finished(view, mean, float((weight * slopes).sum()) / total, total, along, across)
+        found = []
+        for i in np.split(k, np.flatnonzero(np.diff(k) > 1) + 1) if apart else [k]:
+            across = np.array([_zero(y, depth, i[0] - 1, i[0]), _zero(y, depth, i[-1] + 1, i[-1])])
+            # the integral over x of the depth, or of its square, of a parabola
+            half = np.sqrt(depth[i] / curvature)
+            weight = depth[i] ** power * half
+            total = float(weight.sum())
+            mean = float((weight * at[i]).sum()) / total, float((weight * y[i]).sum()) / total
+            along = float((at[i] - half).min()), float((at[i] + half).max())
+            angle = float((weight * slopes[i]).sum()) / total
+            one = self._finished(view, mean, angle, total, along, across)
+            if one is not None:
+                found.append(one)
+        return found
 
-    def _placed(self, patch: SurfacePatch, found: Found) -> SurfacePatch | None:
+    def _placed(self, found: Found) -> SurfacePatch | None:
         """Return a patch on CONTACT's elements where it was found; None without overlap."""
         frame = Frame.turned(found.at, found.angle)
         across = np.sort((found.ends - frame.origin[1:]) @ frame.axes[1, 1:])
@@ -212,8 +272,7 @@ class Search:
         turn, origin = standing(self.pair, self.pose)
         local = turn.T @ (frame.origin + approach * frame.axes[2] - origin)
         radius = math.hypot(local[0], local[2] + self.pair.nominal_radius)
-        return replace(
-            patch,
+        return SurfacePatch(
             gap=Gap(gap.x, gap.y, h) if right else Gap(gap.x, -gap.y[::-1], h[::-1]),
             approach=approach,
             frame=seen,
@@ -223,6 +282,8 @@ class Search:
             on_rail=on_rail,
             on_wheel=(float(local[1]), radius - self.pair.nominal_radius),
             rolling_radius=radius,
+            share=1.0,
+            creepage=Creepage(),
         )
 
     def _division(self, found: Found, edges: Box) -> tuple[Lattice, Box]:
@@ -270,6 +331,36 @@ def _zero(y: Array, depth: Array, outside: int, inside: int) -> float:
         return float(y[inside])
     t = depth[inside] / (depth[inside] - depth[outside])
     return float(y[inside] + t * (y[outside] - y[inside]))
+
+
+def joined(found: Sequence[Found], limits: tuple[float, float], height: Callable[[float, float], float]) -> list[Found]:
+    """Return patches of which those that lie near each other are one, as in CONTACT.
+
+    `limits` are D_SEP, the least distance of two patches [m], and A_SEP, the most difference of the angles of one [rad];
+    `height` returns that of the rail at x and y.
+    """
+    apart, steepest = limits
+    out: list[Found] = []
+    for one in sorted(found, key=lambda each: -float(each.at[1])):
+        last = out[-1] if out else None
+        if (
+            last is None
+            or abs(last.angle - one.angle) > steepest
+            or float(np.linalg.norm(last.ends[0] - one.ends[1])) > apart
+        ):
+            out.append(one)
+            continue
+        total = last.weight + one.weight
+        share = one.weight / total
+        x, y = ((1.0 - share) * last.at + share * one.at)[:2].tolist()
+        out[-1] = Found(
+            np.array([x, y, height(x, y)]),
+            (1.0 - share) * last.angle + share * one.angle,
+            total,
+            (min(last.along[0], one.along[0]), max(last.along[1], one.along[1])),
+            np.stack((one.ends[0], last.ends[1])),
+        )
+    return out
 
 
 def turned(found: Sequence[Found], limits: tuple[float, float, float]) -> list[float]:

@@ -7,6 +7,7 @@ from contact import inp
 from contact.geometry import profile
 from contact.inp.locus import _between
 from contact.inp.nodes import bicubic, bilinear
+from contact.inp.search import Found, joined
 
 #: A wheel on a rail under a given height.
 PAIR = """\
@@ -98,6 +99,21 @@ def test_elements_are_doubled_until_there_are_less_than_npot_max(solved):
     many, few = solved(), solved(most=400)
     assert few["NCON"] < 0.3 * many["NCON"]
     assert few["FN"] == pytest.approx(many["FN"], rel=0.02)
+
+
+def test_patches_nearer_than_the_least_distance_with_like_angles_are_one():
+    def patch(y, angle, weight=1.0):
+        return Found(
+            np.array([0.0, y, 0.0]), angle, weight, (-1e-3, 1e-3), np.array([[y - 1e-3, 0.0], [y + 1e-3, 0.0]])
+        )
+
+    pair = patch(0.0, 0.2), patch(0.008, 0.1, 3.0)  # their ends are 6 mm apart
+    assert len(joined(pair, (5e-3, 1.0), lambda x, y: 0.0)) == 2
+    assert len(joined(pair, (7e-3, 0.05), lambda x, y: 0.0)) == 2
+    (one,) = joined(pair, (7e-3, 1.0), lambda x, y: 2e-3)
+    assert one.at == pytest.approx([0.0, 0.006, 2e-3])
+    assert one.angle == pytest.approx(0.125)
+    assert one.ends[:, 0] == pytest.approx([-1e-3, 9e-3])
 
 
 #: A wheel with a round profile of 10 mm in a groove, under 10 kN. Numbers from CONTACT 25.1 (its groove_r1010).
