@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from fmpy.validation import validate_fmu
 from fmu_instance import DISCARD, refused
-from wheelset_case import reactions, reported, trajectory
+from wheelset_case import PARAMETERS, reactions, reported, trajectory
 
 from contact_models.wheelset.model import WheelsetModel
 from contact_models.wheelset.parameters import WheelsetParameters
@@ -58,29 +58,7 @@ def test_equals_the_model_bit_by_bit(fmu):
     assert rows[-1]["lateral"] != rows[0]["lateral"]
 
 
-@pytest.mark.parametrize(
-    ("name", "value"),
-    [
-        ("mass", 900.0),
-        ("yaw_inertia", 700.0),
-        ("spin_inertia", 90.0),
-        ("axle_load", 9e4),
-        ("suspension.lateral_stiffness", 3e6),
-        ("suspension.yaw_stiffness", 3e6),
-        ("suspension.lateral_damping", 1e5),
-        ("suspension.yaw_damping", 1e5),
-        ("initial.lateral_velocity", 0.1),
-        ("initial.yaw_rate", 0.1),
-        ("initial.approach", 1e-4),
-        ("wheel.radius", 0.5),
-        ("wheel.flange_back", 1.363),
-        ("track.gauge", 1.433),
-        ("geometry.y0", -0.021),
-        ("geometry.dy", 0.9e-3),
-        ("rail.inclination", 1.0 / 20.0),
-        ("resolution.substeps", 3),
-    ],
-)
+@pytest.mark.parametrize(("name", "value"), PARAMETERS)
 def test_every_parameter_reaches_the_model(fmu, open_fmu, name, value):
     other = open_fmu(NAME)
     other.update({name: value, "initial.yaw": 1e-3})

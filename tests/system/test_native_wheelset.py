@@ -13,7 +13,7 @@ from fmpy.validation import validate_fmu
 from fmu_instance import DISCARD, ERROR, Instance, refused
 from script_host import Script
 from thesis_case import THESIS
-from wheelset_case import NUMBERS, STATES, commands, inputs, reactions, reported, trajectory
+from wheelset_case import NUMBERS, PARAMETERS, STATES, commands, inputs, reactions, reported, trajectory
 
 from contact_fmu import lint
 from contact_fmu.tables.wheelset import table
@@ -90,30 +90,7 @@ def test_no_validator_finds_a_problem(native_wheelset):
 
 
 @pytest.mark.parametrize(
-    ("name", "value"),
-    [
-        ("initial.yaw", 2e-3),
-        ("speed", 40.0),
-        ("mass", 1250.0),
-        ("yaw_inertia", 700.0),
-        ("spin_inertia", 90.0),
-        ("axle_load", 9e4),
-        ("suspension.lateral_stiffness", 3e6),
-        ("suspension.yaw_stiffness", 3e6),
-        ("suspension.lateral_damping", 1e5),
-        ("suspension.yaw_damping", 1e5),
-        ("initial.lateral", -5e-3),
-        ("initial.lateral_velocity", 0.1),
-        ("initial.yaw_rate", 0.1),
-        ("initial.approach", 1e-4),
-        ("wheel.radius", 0.5),
-        ("wheel.flange_back", 1.363),
-        ("track.gauge", 1.433),
-        ("geometry.y0", -0.021),
-        ("geometry.dy", 0.9e-3),
-        ("rail.inclination", 1.0 / 20.0),
-        ("resolution.substeps", 3),
-    ],
+    ("name", "value"), [("initial.yaw", 2e-3), ("speed", 40.0), ("initial.lateral", -5e-3), *PARAMETERS]
 )
 def test_equals_the_python_packaging_for_every_parameter(open_wheelset, open_fmu, name, value):
     native, python = open_wheelset(), open_fmu(NAME)

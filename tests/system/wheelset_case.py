@@ -23,6 +23,28 @@ STATES = [row.name for row in table().states]
 INPUT_PORTS = {"irregularity", *(f"{side}.reaction" for side in SIDES)}
 NUMBERS = {*MOTION, *ENERGY, *CHANGE, *(f"{s}.{n}" for s in SIDES for n in (*PROBLEM[CREEPAGE], *FRAME))}
 
+#: Parameters with other values than their defaults.
+PARAMETERS = [
+    ("mass", 900.0),
+    ("yaw_inertia", 700.0),
+    ("spin_inertia", 90.0),
+    ("axle_load", 9e4),
+    ("suspension.lateral_stiffness", 3e6),
+    ("suspension.yaw_stiffness", 3e6),
+    ("suspension.lateral_damping", 1e5),
+    ("suspension.yaw_damping", 1e5),
+    ("initial.lateral_velocity", 0.1),
+    ("initial.yaw_rate", 0.1),
+    ("initial.approach", 1e-4),
+    ("wheel.radius", 0.5),
+    ("wheel.flange_back", 1.363),
+    ("track.gauge", 1.433),
+    ("geometry.y0", -0.021),
+    ("geometry.dy", 0.9e-3),
+    ("rail.inclination", 1.0 / 20.0),
+    ("resolution.substeps", 3),
+]
+
 
 def reactions(k: int) -> dict[str, dict[str, float]]:
     """Return forces and approaches of step `k` for each side."""
