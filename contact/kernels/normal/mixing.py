@@ -51,7 +51,9 @@ def mix(n, n_panels, panels, vectors, load, known, skewed, gram):
     for i in range(total if skewed else 0):
         vectors[Vector.OFFSET_STEP, i] = vectors[Vector.OFFSET_R_OLD, i] = vectors[Vector.OFFSET_R, i]
         inner = 0 < i % n < n - 1
-        vectors[Vector.Q2, i] = vectors[Vector.Q1, i] / vectors[Vector.A, i] ** 2 if inner else 0.0
+        # Compilers divide before they choose, so the divisor must not be 0: that would be a trap.
+        square = vectors[Vector.A, i] ** 2 + 1e-300
+        vectors[Vector.Q2, i] = vectors[Vector.Q1, i] / square if inner else 0.0
     for k in range(depth):
         for m in range(depth):
             product = 0.0
