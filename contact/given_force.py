@@ -11,9 +11,9 @@ import numpy as np
 from contact.errors import ContactError, require_number
 from contact.inputs.creepage import Creepage
 from contact.kernels.given_force import LATERAL, LONGITUDINAL, begin, go_on
-from contact.kernels.records import FORCE_SEARCH, ROOT
 from contact.kernels.root import advance
 from contact.kernels.root import begin as begin_root
+from contact.kernels.searches import FORCE_SEARCH, ROOT
 from contact.results import Solution, Status
 
 #: Longitudinal and lateral force [N]; None where the creepage is given.

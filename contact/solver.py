@@ -29,7 +29,8 @@ from contact.kernels.given_force import solve_under_force
 from contact.kernels.jacobian import COLUMNS, ROWS, solve_with_jacobian
 from contact.kernels.normal.start import MEM_IMAGE
 from contact.kernels.pipeline import solve_cases
-from contact.kernels.records import FORCE_SEARCH, RESULT
+from contact.kernels.records import RESULT
+from contact.kernels.searches import FORCE_SEARCH
 from contact.registry import DEFAULT_NORMAL, DEFAULT_TANGENTIAL, Method, lookup
 from contact.results import BEND, CaseForces, Jacobian, Prepared, Solution, Status
 from contact.view import trace

@@ -7,7 +7,7 @@ from typing import Annotated, Any, Generic, NamedTuple, TypeVar
 import numpy as np
 
 from contact.core import Shape, group
-from contact.kernels import records
+from contact.kernels import records, searches
 
 Array = Any  # an ndarray of any shape
 Numbers = Annotated[Any, Shape(np.float64, 1)]
@@ -39,11 +39,11 @@ Parameters = Annotated[Any, Shape(records.DAMAGE_PARAMETERS, 1)]
 DamageParameters = Annotated[Any, Shape(records.DAMAGE_PARAMETERS, 0)]
 Settings = Annotated[Any, Shape(records.LEDGER, 1)]
 Setting = Annotated[Any, Shape(records.LEDGER, 0)]
-Roots = Annotated[Any, Shape(records.ROOT, 1)]
-Root = Annotated[Any, Shape(records.ROOT, 0)]
-ForceSearches = Annotated[Any, Shape(records.FORCE_SEARCH, 1)]
-ForceSearch = Annotated[Any, Shape(records.FORCE_SEARCH, 0)]
-Iterations = Annotated[Any, Shape(records.ITERATION, 1)]
+Roots = Annotated[Any, Shape(searches.ROOT, 1)]
+Root = Annotated[Any, Shape(searches.ROOT, 0)]
+ForceSearches = Annotated[Any, Shape(searches.FORCE_SEARCH, 1)]
+ForceSearch = Annotated[Any, Shape(searches.FORCE_SEARCH, 0)]
+Iterations = Annotated[Any, Shape(searches.ITERATION, 1)]
 Springs = Annotated[Any, Shape(records.ELASTIC_RAIL, 1)]
 Offsets = Annotated[Any, Shape(records.WHEEL_OFFSET, 1)]
 

@@ -34,7 +34,6 @@ from contact.kernels.records import (
     DAMAGE_PARAMETERS,
     ELASTIC_RAIL,
     GIVEN,
-    ITERATION,
     LEDGER,
     LOBE,
     MAX_LOBES,
@@ -42,7 +41,6 @@ from contact.kernels.records import (
     MOTION,
     PATCH,
     RESULT,
-    ROOT,
     TOTAL,
     WHEEL_OFFSET,
 )
@@ -67,6 +65,7 @@ from contact.kernels.rows import (
     Strip,
     Tangent,
 )
+from contact.kernels.searches import ITERATION, ROOT
 from contact.kernels.tangential.lanes import LANES, N_LANE_ROWS, TRACE_WIDTH
 
 #: Rows of the derivatives of a pair, and what the forces of a patch are derived by (`pair_jacobian`).

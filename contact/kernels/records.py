@@ -30,7 +30,7 @@ TAPE_FROM_FLANGE_BACK = 0.070
 MEANING: dict[str, dict[str, str]] = {}
 
 
-def _record(name: str, members: str) -> np.dtype:
+def record(name: str, members: str) -> np.dtype:
     """Return the aligned record `name`. Each line of `members` is ``name meaning``.
 
     ``name`` is a float64, ``name:int`` an int64, ``name:8`` an array of 8 float64.
@@ -49,7 +49,7 @@ def _record(name: str, members: str) -> np.dtype:
 
 
 #: One contact problem besides its separation.
-CASE = _record(
+CASE = record(
     "case",
     """
     load_kind:int   LoadKind
@@ -90,7 +90,7 @@ CASE = _record(
 )
 
 #: What a solver says besides fields. Forces act on the wheel.
-RESULT = _record(
+RESULT = record(
     "result",
     f"""
     Fx              longitudinal force [N]
@@ -137,10 +137,10 @@ _GIVEN = """
     """
 
 #: Pose, velocity and irregularity of the rail as a caller gives them, of either side.
-GIVEN = _record("given", _GIVEN)
+GIVEN = record("given", _GIVEN)
 
 #: The same on the right side, `rail_y` and `rail_z` with the rail's origin added, and what a search needs besides.
-MOTION = _record(
+MOTION = record(
     "motion",
     _GIVEN
     + """
@@ -163,7 +163,7 @@ MOTION = _record(
 )
 
 #: A run of interpenetration, later a whole patch. Moments are weighted with the interpenetration.
-LOBE = _record(
+LOBE = record(
     "lobe",
     """
     low             begin of the run, track y [m]
@@ -185,7 +185,7 @@ LOBE = _record(
 )
 
 #: One patch of a search, on the right side.
-PATCH = _record(
+PATCH = record(
     "patch",
     """
     angle           contact angle [rad]
@@ -217,7 +217,7 @@ PATCH = _record(
 )
 
 #: One patch of a pair. Forces act on the wheel, in the contact frame.
-CONTACT = _record(
+CONTACT = record(
     "contact",
     """
     N               normal force [N]
@@ -262,10 +262,10 @@ _DAMAGE = """
     """
 
 #: Damage of one patch; per metre rolled.
-DAMAGE = _record("damage", _DAMAGE)
+DAMAGE = record("damage", _DAMAGE)
 
 #: All patches of a pair together; damage is added up or the greatest.
-TOTAL = _record(
+TOTAL = record(
     "total",
     """
     Fx              on the wheel, track coordinates [N]
@@ -293,7 +293,7 @@ TOTAL = _record(
 )
 
 #: Constants of the damage models. The arrays are those of the dataclasses of `contact.damage`.
-DAMAGE_PARAMETERS = _record(
+DAMAGE_PARAMETERS = record(
     "damage_parameters",
     """
     speed           [m/s]
@@ -311,7 +311,7 @@ DAMAGE_PARAMETERS = _record(
 )
 
 #: A rail on springs, and its deflection.
-ELASTIC_RAIL = _record(
+ELASTIC_RAIL = record(
     "elastic_rail",
     """
     ky              lateral stiffness [N/m]; 0 is rigid
@@ -325,7 +325,7 @@ ELASTIC_RAIL = _record(
 )
 
 #: Displacement of a wheel against its wheelset, in track coordinates.
-WHEEL_OFFSET = _record(
+WHEEL_OFFSET = record(
     "wheel_offset",
     """
     x               of the wheel's datum, on the axle at the tape circle [m]
@@ -343,82 +343,8 @@ WHEEL_OFFSET = _record(
     """,
 )
 
-_ROOT = """
-    x               next point to evaluate
-    before          previous point
-    value           last value of the function
-    slope           slope of the last secant, at first as expected
-    first           begin of the range
-    last            end of the range
-    low             lower end of the bracket
-    high            upper end of the bracket
-    longest         largest step
-    evaluations:int number of evaluations
-    beyond:int      1 if there is no change of sign up to an end of the range
-    """
-
-#: A search for the root of a rising function.
-ROOT = _record("root", _ROOT)
-
-#: A search for the creepages under a given force. Residuals and their derivatives are those of `contact.kernels.given_force`.
-FORCE_SEARCH = _record(
-    "force_search",
-    _ROOT
-    + """
-    given:int       1 for the longitudinal force, 2 for the lateral one, 3 for both
-    vx              next longitudinal creepage to evaluate [-]
-    vy              next lateral creepage to evaluate [-]
-    wanted_x        given longitudinal force [N]; 0 where none is given
-    wanted_y        given lateral force [N]; 0 where none is given
-    limit           friction times normal force [N]
-    unit            creepage at which the force comes near the limit, roughly [-]
-    bounded:int     1 where the force never exceeds the limit
-    status:int      0, or Status
-    stage:int       what the next force is for
-    solutions:int   number of solutions
-    trials:int      number of trials of this step
-    fresh:int       1 where the Jacobian is that of differences at the best creepages
-    best_x          longitudinal creepage with the smallest residual [-]
-    best_y          lateral creepage with the smallest residual [-]
-    rx              its longitudinal residual [-]
-    ry              its lateral residual [-]
-    error           error of its force over the limit [-]
-    jacobian:4      derivatives of the residual, row by row
-    """,
-)
-
-#: State of the iteration of interacting strips (`contact.kernels.normal.iteration`).
-ITERATION = _record(
-    "iteration",
-    """
-    number:int      of this iteration, from 0
-    begun:int       number of the first iteration from the present start
-    warm:int        1 if this start is the last solution
-    patience:int    number of the iteration in which a warm start is given up
-    n_panels:int
-    approach        above first touch [m]
-    error           sum of the residuals, weighted by the strips' loads
-    load            sum of these weights
-    last_error      error over load of the last iteration
-    moved           largest move of an end over the width of its panel
-    left            what the mixing leaves of the step
-    mixed:int       number of iterations that the mixing knows
-    cut:int         1 if idle parts of panels are cut off, so that this iteration has no residuals
-    anew:int        1 if a panel was lost or the ends are fixed from here on, so that the best iterate no longer counts
-    descending:int  1 if panels step by the Jacobian of an ellipse
-    searched:int    1 once the gap outside the panels was searched
-    found:int       1 if there was missed contact
-    parted:int      number of iterations after which panels were parted
-    stiff:int       1 if the middles of skewed strips are straightened more from here on
-    events:int      of this iteration, bits of Event
-    exact:int       1 if the residuals are below the tolerance
-    converged:int   1 at rest
-    best            error over load of the best iterate since the ends were fixed
-    """,
-)
-
 #: Bins of a ledger.
-LEDGER = _record(
+LEDGER = record(
     "ledger",
     """
     start           where the first bin begins, in widths

@@ -17,8 +17,9 @@ from contact.kernels.entries.layout import copy, fill, forget_forged, lay_out, s
 from contact.kernels.given_force import solve_under_force
 from contact.kernels.jacobian import COLUMNS, ROWS, solve_with_jacobian
 from contact.kernels.pipeline import solve_case
-from contact.kernels.records import CASE, DAMAGE, DAMAGE_PARAMETERS, FORCE_SEARCH, MAX_PATCHES, RESULT
+from contact.kernels.records import CASE, DAMAGE, DAMAGE_PARAMETERS, MAX_PATCHES, RESULT
 from contact.kernels.rows import DamageField
+from contact.kernels.searches import FORCE_SEARCH
 
 
 @group
