@@ -1,7 +1,7 @@
 """Objects that own arrays which compiled kernels write: one call at a time, and copies by what they were made of.
 
 A call of the library releases Python's global lock. A second thread would then write the same arrays, and both results would
-be wrong. So every public method that uses the arrays tries a lock first. It does not wait: a second thread, or a callback or
+be wrong. So every public method that uses the arrays asks for a lock first. It does not wait: a second thread, or a callback or
 signal handler inside the first call, gets a ContactError. Nothing can therefore wait for ever.
 """
 
@@ -74,13 +74,13 @@ def one_thread(
 
     @wraps(method)
     def call(self: _Owner, *given: _Given.args, **options: _Given.kwargs) -> _Answer:
+        # A signal between `acquire` and `try` would keep the lock for ever; `with` has no such gap. A thread that comes between
+        # the question and `with` waits for this one call.
         turn = self._turn
-        if not turn.acquire(False):
+        if turn.locked():
             raise _in_use(self)
-        try:
+        with turn:
             return method(self, *given, **options)
-        finally:
-            turn.release()
 
     return call
 
