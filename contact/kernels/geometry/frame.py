@@ -9,6 +9,7 @@ import math
 
 from contact.core import kernel
 from contact.kernels.arrays import Search
+from contact.kernels.geometry.beside import fit_beside, share_beside
 from contact.kernels.geometry.curve import Array, Record, advance, at, segment
 from contact.kernels.geometry.plane import Frame, along, normal_gap, project, spread, track_slope
 from contact.kernels.geometry.search import axle, combine, join, lobes, on_wheel, shared, size_of, untie
@@ -172,6 +173,9 @@ def sample(
         out[Sep.G, k] = max(gap, 0.0) + _OPENING * abs(u - v)
         out[Sep.TILT, k] = 0.5 * (slope + rail_slope)
         out[Sep.XC, k], slopes[k], out[Sep.A, k] = height, slope, outline(wheel, n_wheel, j, v, arm)
+    share = share_beside(patch, motion)
+    for k in range(out.shape[1] if share > 0.0 else 0):
+        space.work[1, k] = out[Sep.XC, k]
     across, down, x = motion.y, motion.z - motion.radius, patch.x
     for k in range(out.shape[1]):
         v, height, slope = min(max(out[Sep.Y, k], low), high), out[Sep.XC, k], slopes[k]
@@ -181,6 +185,8 @@ def sample(
         at_x, _, r = on_wheel(tilt, py, pz, lx, ly, lz)
         out[Sep.A, k] = half_curvature(slope, out[Sep.A, k], tilt, r, (lx, ly, lz))
         out[Sep.XC, k] = at_x - x
+    if share > 0.0:
+        fit_beside(share, frame, patch, (low, high), out, space)
 
 
 @kernel
