@@ -43,16 +43,16 @@ def entries() -> dict[str, Callable[..., Any]]:
     def model_field(values, work, k, given):
         v = carray(values, (n_values,))
         bench, _, _ = arrange(v, work, given)
-        own, n = bench.own, solve_patch(k, bench)
+        workspace, n = bench.workspace, solve_patch(k, bench)
         m = int(v[elements])
         by_strip = carray(ahead(values, n_values), (len(STRIPS), n))
         by_element = carray(ahead(values, n_values + len(STRIPS) * n), (N_ELEMENT_ROWS, n, m))
         for i in range(n):
             for row in range(_STRIPS.size):
-                by_strip[row, i] = own.strips[_STRIPS[row], i]
+                by_strip[row, i] = workspace.strips[_STRIPS[row], i]
             for j in range(m):
                 for row in range(_FIELDS.size):
-                    by_element[row, i, j] = own.fields[_FIELDS[row], i, j]
+                    by_element[row, i, j] = workspace.fields[_FIELDS[row], i, j]
                 by_element[_FIELDS.size, i, j] = bench.damage_fields[energy, i, j]
         return n
 

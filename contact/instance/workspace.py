@@ -181,7 +181,7 @@ def bench(size: tuple[int, int, int], of_search: Search | SurfaceSearch, arrays:
 
 def aside(size: tuple[int, int, int], of_bench: Bench) -> Aside:
     """Return the arrays that the derivatives of a wheel-rail pair need besides its bench."""
-    full, search = Size(*size, int(of_bench.own.space.tangent.size > 1), 1), of_bench.search
+    full, search = Size(*size, int(of_bench.workspace.space.tangent.size > 1), 1), of_bench.search
     if isinstance(search, SurfaceSearch):
         beside = surface_search(search.wheel, search.rail, search.separations.shape[2])
         near = _laid(memory.lay_beside, beside, of_bench)

@@ -260,7 +260,7 @@ Kind = TypeVar("Kind", Search, SurfaceSearch)
 class Bench(NamedTuple, Generic[Kind]):
     """All arrays of one pair.
 
-    `search`, `own` and `damage_parameters` hold sizes and constants. `case` holds methods, material and friction.
+    `search`, `workspace` and `damage_parameters` hold sizes and constants. `case` holds methods, material and friction.
     `patch_case` holds the same for the current patch. `memory` is the start for the next call: the number of patches,
     then one piece for each of MAX_PATCHES, then the deflection of the rail. `rail` holds its springs, `roots` and `moved`
     are for the search of the deflection, the last root for that of the height. `offset` is the displacement of the wheel
@@ -268,7 +268,7 @@ class Bench(NamedTuple, Generic[Kind]):
     """
 
     search: Kind
-    own: Workspace
+    workspace: Workspace
     case: Cases
     patch_case: Cases
     result: Results

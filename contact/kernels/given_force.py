@@ -225,7 +225,7 @@ def _judgement(search):
 def solve_under_force(
     sep: Samples,
     cases: Cases,
-    own: Workspace,
+    workspace: Workspace,
     results: Results,
     searches: ForceSearches,
     given: int,
@@ -238,17 +238,17 @@ def solve_under_force(
     ``results[1]`` is scratch.
     """
     case, result, search = cases[0], results[0], searches[0]
-    n = press_case(sep, case, own, result)
+    n = press_case(sep, case, workspace, result)
     if n == 0:
         return 0
     results[1] = results[0]
-    roll_case(sep, n, case, own, result)
+    roll_case(sep, n, case, workspace, result)
     bounded = case.tangential != Tangential.LINEAR
     begin(search, given, Fx, Fy, case.vx, case.vy, of_case(case) * result.N, case.G * result.area, bounded)
     while go_on(search, result.Fx, result.Fy):
         case.vx, case.vy = search.vx, search.vy
         results[0] = results[1]
-        roll_case(sep, n, case, own, result)
+        roll_case(sep, n, case, workspace, result)
     if search.status != 0:
         result.status = search.status
     return n

@@ -69,7 +69,7 @@ def move(case, j, step):
 
 
 @kernel
-def roll_moved(sep, n, j, step, cases, own, results):
+def roll_moved(sep, n, j, step, cases, workspace, results):
     """Solve the tangential problem on the same `n` strips with one creepage or the friction moved.
 
     ``cases[0]`` and ``results[0]`` are the problem and what the normal problem has found. ``cases[1]`` and ``results[1]`` get
@@ -78,11 +78,11 @@ def roll_moved(sep, n, j, step, cases, own, results):
     cases[1], results[1] = cases[0], results[0]
     move(cases[1], j, step)
     clear_forces(results[1])
-    roll_case(sep, n, cases[1], own, results[1])
+    roll_case(sep, n, cases[1], workspace, results[1])
 
 
 @kernel
-def _press_closely(sep, share, cases, own, result):
+def _press_closely(sep, share, cases, workspace, result):
     """Solve the normal problem of ``cases[0]`` with a small tolerance, and with its load or penetration larger by a share.
 
     ``cases[1]`` gets this problem. Return the strip count.
@@ -90,7 +90,7 @@ def _press_closely(sep, share, cases, own, result):
     cases[1] = cases[0]
     cases[1].tolerance = TOLERANCE
     move(cases[1], AMOUNT, share)
-    return press_case(sep, cases[1], own, result)
+    return press_case(sep, cases[1], workspace, result)
 
 
 @kernel
@@ -102,25 +102,25 @@ def _copy_strips(strips, n, at, to):
 
 
 @kernel
-def _follow(sep, n, amount, cases, own, results, jacobian):
-    """Fill the column of the load or approach from the tangent of the solution in `own`, for a change `amount` of the approach.
+def _follow(sep, n, amount, cases, workspace, results, jacobian):
+    """Fill the column of the load or approach from the tangent of the solution, for a change `amount` of the approach.
 
     The strips of the solution are kept.
     """
     cases[1], results[1] = cases[0], results[0]
-    _copy_strips(own.strips, n, 0, n)
-    follow(sep, results[0].approach + amount, own, results[1])
-    roll_case(sep, n, cases[1], own, results[1])
-    _copy_strips(own.strips, n, n, 0)
+    _copy_strips(workspace.strips, n, 0, n)
+    follow(sep, results[0].approach + amount, workspace, results[1])
+    roll_case(sep, n, cases[1], workspace, results[1])
+    _copy_strips(workspace.strips, n, n, 0)
     _store(results[1], AMOUNT, jacobian)
 
 
 @kernel
-def has_tangent(sep, case, own, result):
+def has_tangent(sep, case, workspace, result):
     """Find the tangent of the solution, unless its strips change after the normal problem. Return whether there is one."""
     if case.normal_family != NormalFamily.STRIP_HALFSPACE or case.conformal != 0 or result.limited != 0:
         return False
-    return linearise(sep, case, own, result)
+    return linearise(sep, case, workspace, result)
 
 
 @kernel
@@ -169,20 +169,20 @@ def _set_friction(case, result, jacobian):
 
 
 @kernel
-def roll_creepages(sep, n, cases, own, results, jacobian):
+def roll_creepages(sep, n, cases, workspace, results, jacobian):
     """Write the results with each creepage moved into its column, on the same `n` strips.
 
     `subtract_creepages` makes derivatives of them.
     """
-    if fits_together(n, cases[0], results[0], own.strips):
+    if fits_together(n, cases[0], results[0], workspace.strips):
         creepage, spin = creepage_step(cases[0], results[0])
-        roll_together(n, creepage, spin, cases[0], own)
+        roll_together(n, creepage, spin, cases[0], workspace)
         for j in range(COPIES):
-            jacobian[0, j], jacobian[1, j], jacobian[2, j], jacobian[5, j] = sum_copy(n, j, own.strips)
+            jacobian[0, j], jacobian[1, j], jacobian[2, j], jacobian[5, j] = sum_copy(n, j, workspace.strips)
             jacobian[3, j], jacobian[4, j] = results[0].N, results[0].approach
         return
     for j in range(COPIES):
-        roll_moved(sep, n, j, _step(j, cases[0], 0.0, results[0]), cases, own, results)
+        roll_moved(sep, n, j, _step(j, cases[0], 0.0, results[0]), cases, workspace, results)
         _store(results[1], j, jacobian)
 
 
@@ -205,7 +205,7 @@ def subtract_creepages(cases, results, jacobian):
 
 
 @kernel
-def derive_solved(sep, n, cases, own, results, jacobian):
+def derive_solved(sep, n, cases, workspace, results, jacobian):
     """Fill the jacobian, shape (6, 5), of ``cases[0]``, whose normal problem is solved. Return the strip count, before `n`.
 
     If it has no tangent, it is solved again with a small tolerance, and of the solution before only the approach counts.
@@ -214,26 +214,26 @@ def derive_solved(sep, n, cases, own, results, jacobian):
     clear_forces(results[0])
     by_load = cases[0].load_kind != LoadKind.APPROACH
     over = results[0].approach - results[0].touch
-    if has_tangent(sep, cases[0], own, results[0]):
-        _follow(sep, n, SMALL * max(over, 0.0), cases, own, results, jacobian)
+    if has_tangent(sep, cases[0], workspace, results[0]):
+        _follow(sep, n, SMALL * max(over, 0.0), cases, workspace, results, jacobian)
         amount = jacobian[3, AMOUNT] - results[0].N if by_load else jacobian[4, AMOUNT] - results[0].approach
     else:
         share = ITERATED if cases[0].normal_family == NormalFamily.STRIP_HALFSPACE else SMALL
         amount = share * max(cases[0].amount if by_load else over, 0.0)
-        n = _press_closely(sep, amount, cases, own, results[1])
+        n = _press_closely(sep, amount, cases, workspace, results[1])
         if n > 0:
-            roll_case(sep, n, cases[1], own, results[1])
+            roll_case(sep, n, cases[1], workspace, results[1])
             _store(results[1], AMOUNT, jacobian)
-        n = _press_closely(sep, 0.0, cases, own, results[0])
+        n = _press_closely(sep, 0.0, cases, workspace, results[0])
     if n == 0:
         jacobian[:, :] = 0.0
         return 0
     even = is_even(cases[0]) and cases[0].mu > 0.0
-    roll_creepages(sep, n, cases, own, results, jacobian)
+    roll_creepages(sep, n, cases, workspace, results, jacobian)
     if not even:
-        roll_moved(sep, n, MU, _step(MU, cases[0], amount, results[0]), cases, own, results)
+        roll_moved(sep, n, MU, _step(MU, cases[0], amount, results[0]), cases, workspace, results)
         _store(results[1], MU, jacobian)
-    roll_case(sep, n, cases[0], own, results[0])
+    roll_case(sep, n, cases[0], workspace, results[0])
     for j in range(MU if even else COLUMNS):
         _subtract_moved(j, amount, cases, results, jacobian)
     if even:
@@ -242,7 +242,7 @@ def derive_solved(sep, n, cases, own, results, jacobian):
 
 
 @entry
-def solve_with_jacobian(sep: Samples, cases: Cases, own: Workspace, results: Results, jacobian: Matrix) -> int:
+def solve_with_jacobian(sep: Samples, cases: Cases, workspace: Workspace, results: Results, jacobian: Matrix) -> int:
     """Solve ``cases[0]`` into ``results[0]``, and fill the jacobian, shape (6, 5). Return the strip count.
 
     ``cases[1]`` and ``results[1]`` are scratch. Without contact all derivatives are zero. If there is a tangent, the answer is
@@ -250,8 +250,8 @@ def solve_with_jacobian(sep: Samples, cases: Cases, own: Workspace, results: Res
     """
     n = 1
     if cases[0].normal_family == NormalFamily.STRIP_HALFSPACE or cases[0].load_kind == LoadKind.APPROACH:
-        n = press_case(sep, cases[0], own, results[0])  # else `derive_solved` needs no solution
+        n = press_case(sep, cases[0], workspace, results[0])  # else `derive_solved` needs no solution
     if n == 0:
         jacobian[:, :] = 0.0
         return 0
-    return derive_solved(sep, n, cases, own, results, jacobian)
+    return derive_solved(sep, n, cases, workspace, results, jacobian)

@@ -11,7 +11,7 @@ def enter(patch, n, damage, bench):
 
     The strips are those of the right side.
     """
-    ledger, strips, fields = bench.ledger, bench.own.strips, bench.own.fields
+    ledger, strips, fields = bench.ledger, bench.workspace.strips, bench.workspace.fields
     settings, rates, edges = ledger.settings[0], ledger.rates, ledger.edges
     forward = bench.result[0].Fx
     strip_rates(strips, n, fields, bench.damage_parameters[0], damage, bench.damage_fields, forward, rates)

@@ -246,7 +246,7 @@ def pair_memory_size(piece: int) -> int:
 
 @shared
 def lay_bench(
-    block: Array, end: int, size: Size, memory: Array, search: Search, own: Workspace, ledger: Ledger
+    block: Array, end: int, size: Size, memory: Array, search: Search, workspace: Workspace, ledger: Ledger
 ) -> tuple[Bench, int]:
     """Return the arrays of a pair around its search, its workspace and its ledger, and the new end."""
     case, end = records(block, end, 1, CASE)
@@ -263,7 +263,7 @@ def lay_bench(
     offset, end = records(block, end, 1, WHEEL_OFFSET)
     displaced, end = records(block, end, 1, GIVEN)
     bench = Bench(
-        search, own, case, patch_case, result, memory, parameters, damage_fields, damage, contacts, total, ledger,
+        search, workspace, case, patch_case, result, memory, parameters, damage_fields, damage, contacts, total, ledger,
         rail, roots, moved, offset, displaced,
     )  # fmt: skip
     return bench, end
@@ -294,7 +294,7 @@ def lay_beside(block: Array, end: int, near: Search, bench: Bench) -> tuple[Benc
     total, end = records(block, end, 1, TOTAL)
     displaced, end = records(block, end, 1, GIVEN)
     beside = Bench(
-        near, bench.own, case, patch_case, result, memory, bench.damage_parameters, bench.damage_fields, bench.damage,
+        near, bench.workspace, case, patch_case, result, memory, bench.damage_parameters, bench.damage_fields, bench.damage,
         contacts, total, bench.ledger, bench.rail, bench.roots, bench.moved, bench.offset, displaced,
     )  # fmt: skip
     return beside, end

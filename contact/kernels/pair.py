@@ -78,19 +78,19 @@ def space_of_patch(space, memory, tangent):
 
 @kernel
 def workspace_of(k, bench):
-    """Return separation and workspace of patch k of the last search. Strips and fields are those of `bench.own`."""
-    own, memory, sep = bench.own, bench.memory, bench.search.separations[k]
+    """Return separation and workspace of patch k of the last search. Strips and fields are those of `bench.workspace`."""
+    workspace, memory, sep = bench.workspace, bench.memory, bench.search.separations[k]
     piece = (memory.size - 3) // MAX_PATCHES
-    space = space_of_patch(own.space, memory[1 + k * piece : 1 + (k + 1) * piece], own.space.tangent)
+    space = space_of_patch(workspace.space, memory[1 + k * piece : 1 + (k + 1) * piece], workspace.space.tangent)
     samples = Samples(sep[Sep.Y], sep[Sep.G], sep[Sep.A], sep[Sep.XC], sep[Sep.TILT])
-    return samples, Workspace(own.rule, own.tables, space, own.strips, own.fields)
+    return samples, Workspace(workspace.rule, workspace.tables, space, workspace.strips, workspace.fields)
 
 
 @kernel
 def _press_patch(k, bench):
     """Solve the normal problem of patch k of the last search at its approach. Return the number of strips.
 
-    Strips are those of `bench.own`, until the next patch is solved. `bench.patch_case` has to hold the case of the pair.
+    Strips are those of `bench.workspace`, until the next patch is solved. `bench.patch_case` has to hold the case of the pair.
     """
     set_case(bench.search.patches[k], bench.search.motion[0], bench.case[0], bench.patch_case[0])
     samples, of_patch = workspace_of(k, bench)
@@ -100,14 +100,16 @@ def _press_patch(k, bench):
 @kernel
 def _roll_patch(k, n_strips, bench):
     """Solve the tangential problem of patch k, whose normal problem was solved last, with its damage."""
-    search, own, result, parameters = bench.search, bench.own, bench.result[0], bench.damage_parameters[0]
+    search, workspace, result, parameters = bench.search, bench.workspace, bench.result[0], bench.damage_parameters[0]
     case = bench.patch_case[0]
     if n_strips > 0:
         samples, of_patch = workspace_of(k, bench)
         complete_pressure(samples, n_strips, case, of_patch, result)
         roll_case(samples, n_strips, case, of_patch, result)
     parameters.speed, parameters.wheel_radius = search.motion[0].vx, search.patches[k].radius
-    damage_kernel(own.strips, n_strips, own.fields, case, result, parameters, bench.damage_fields, bench.damage[0])
+    damage_kernel(
+        workspace.strips, n_strips, workspace.fields, case, result, parameters, bench.damage_fields, bench.damage[0]
+    )
 
 
 @kernel
@@ -137,7 +139,7 @@ def _solve(n, pressed, enters, bench):
     `pressed` is the number of strips of a single patch whose normal problem is solved already, or below 0. The ledger is
     filled if `enters` says so.
     """
-    own, total, result = bench.own, bench.total[0], bench.result[0]
+    workspace, total, result = bench.workspace, bench.total[0], bench.result[0]
     damage, case, motion = bench.damage[0], bench.patch_case[0], bench.search.motion[0]
     for k in range(MAX_PATCHES):
         clear_contact(bench.contacts[k])
@@ -148,7 +150,7 @@ def _solve(n, pressed, enters, bench):
         n_strips = pressed if pressed >= 0 else _press_patch(k, bench)
         _roll_patch(k, n_strips, bench)
         total.bend = max(total.bend, result.bend)
-        pressure = pressure_wrench(own.strips, n_strips)
+        pressure = pressure_wrench(workspace.strips, n_strips)
         report(patch, case, result, pressure, contact)
         if n_strips > 0:
             patch.load = result.N

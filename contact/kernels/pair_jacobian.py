@@ -49,43 +49,43 @@ _SMALL = 1e-6
 def _own_of(k, aside):
     """Return separation and workspace of patch k. Fields are left out unless the tangential problem reads them."""
     bench = aside.bench
-    sep, own, memory, case = bench.search.separations[k], bench.own, bench.memory, bench.case[0]
+    sep, workspace, memory, case = bench.search.separations[k], bench.workspace, bench.memory, bench.case[0]
     piece = (memory.size - 3) // MAX_PATCHES
     samples = Samples(sep[Sep.Y], sep[Sep.G], sep[Sep.A], sep[Sep.XC], sep[Sep.TILT])
-    space = space_of_patch(own.space, memory[1 + k * piece : 1 + (k + 1) * piece], aside.tangents[k])
-    fields = own.fields if case.conformal != 0 or case.pressure_limit > 0.0 else aside.row
-    return samples, Workspace(own.rule, own.tables, space, own.strips, fields)
+    space = space_of_patch(workspace.space, memory[1 + k * piece : 1 + (k + 1) * piece], aside.tangents[k])
+    fields = workspace.fields if case.conformal != 0 or case.pressure_limit > 0.0 else aside.row
+    return samples, Workspace(workspace.rule, workspace.tables, space, workspace.strips, fields)
 
 
 @kernel
-def _press(k, place, samples, own, aside):
+def _press(k, place, samples, workspace, aside):
     """Solve the normal problem of patch k at its approach: by its tangent, or closely. Return the number of strips."""
     case, result = aside.bench.patch_case[0], aside.bench.result[0]
     if place == _SOLVED:
-        return loaded_strips(own)
+        return loaded_strips(workspace)
     if place == _MIDDLE:
         case.tolerance = aside.bench.case[0].tolerance
-        n = press_case(samples, case, own, result)
-        aside.linear[k] = 1.0 if n > 0 and has_tangent(samples, case, own, result) else 0.0
+        n = press_case(samples, case, workspace, result)
+        aside.linear[k] = 1.0 if n > 0 and has_tangent(samples, case, workspace, result) else 0.0
         if n == 0 or aside.linear[k] > 0.0 or case.normal_family != NormalFamily.STRIP_HALFSPACE:
             return n
     elif place == _NEAR and aside.linear[k] > 0.0:
         clear(result)
-        return follow(samples, case.amount, own, result)
+        return follow(samples, case.amount, workspace, result)
     case.tolerance = TOLERANCE
-    return press_case(samples, case, own, result)
+    return press_case(samples, case, workspace, result)
 
 
 @kernel
-def _solve_patch(k, place, samples, own, aside):
+def _solve_patch(k, place, samples, workspace, aside):
     """Solve patch k at its approach and add its forces to `aside.forces`. Return the number of strips."""
     bench = aside.bench
     patch, case, result, contact = bench.search.patches[k], bench.patch_case[0], bench.result[0], bench.contacts[k]
     set_case(patch, bench.search.motion[0], bench.case[0], case)
-    n = _press(k, place, samples, own, aside)
+    n = _press(k, place, samples, workspace, aside)
     if n > 0 and place != _SOLVED:
-        roll_case(samples, n, case, own, result)
-    pressure = pressure_wrench(own.strips, n)
+        roll_case(samples, n, case, workspace, result)
+    pressure = pressure_wrench(workspace.strips, n)
     report(patch, case, result, pressure, contact)
     if n > 0:
         total = bench.total[0]
@@ -140,16 +140,16 @@ def _add_tangential(scale, Fx, Fy, Mz, contact, bench, to):
 
 
 @kernel
-def _roll_moved(k, samples, n, own, aside):
+def _roll_moved(k, samples, n, workspace, aside):
     """Fill `aside.by_creep[k]`: the derivatives of the forces of patch k, which is solved."""
     bench = aside.bench
     patch, contact = bench.search.patches[k], bench.contacts[k]
     bench.case[1], bench.result[1] = bench.patch_case[0], bench.result[0]
     case, result, middle = bench.case[1], bench.result[1], bench.result[0]
-    together = fits_together(n, case, middle, own.strips)
+    together = fits_together(n, case, middle, workspace.strips)
     if together:
         creepage, spin = creepage_step(case, middle)
-        roll_together(n, creepage, spin, case, own)
+        roll_together(n, creepage, spin, case, workspace)
     for c in range(CREEPS):
         even = is_even(case) and case.mu > 0.0
         if c == SPEED and case.law == FrictionLaw.COULOMB and not case.drop > 0.0:
@@ -167,9 +167,9 @@ def _roll_moved(k, samples, n, own, aside):
         step = _step_of(c, case, middle)
         clear_forces(result)
         if together and c < COPIES:
-            result.Fx, result.Fy, result.Mz, result.power = sum_copy(n, c, own.strips)
+            result.Fx, result.Fy, result.Mz, result.power = sum_copy(n, c, workspace.strips)
         else:
-            roll_case(samples, n, case, own, result)
+            roll_case(samples, n, case, workspace, result)
         scale, Fx, Fy = patch.share / step if step > 0.0 else 0.0, result.Fx - middle.Fx, result.Fy - middle.Fy
         _add_tangential(scale, Fx, Fy, result.Mz - middle.Mz, contact, bench, aside.by_creep[k, c])
 
@@ -187,10 +187,10 @@ def _take_solved(bench, aside):
     """Take the single patch of the last solution, whose strips are still there. Return whether it has a tangent."""
     near = aside.bench
     near.search.patches[0], near.result[0] = bench.search.patches[0], bench.result[0]
-    samples, own = _own_of(0, aside)
+    samples, workspace = _own_of(0, aside)
     sep = bench.search.separations[0]
     samples = Samples(sep[Sep.Y], sep[Sep.G], sep[Sep.A], sep[Sep.XC], sep[Sep.TILT])
-    fits = has_tangent(samples, bench.patch_case[0], own, near.result[0])
+    fits = has_tangent(samples, bench.patch_case[0], workspace, near.result[0])
     aside.linear[0] = 1.0 if fits else 0.0
     return fits
 
@@ -204,15 +204,15 @@ def _solve_middle(n, place, aside):
     bench = aside.bench
     approach, steepest, share = 0.0, _LEAST_SLOPE, SMALL
     for k in range(n):
-        samples, own = _own_of(k, aside)
-        strips = _solve_patch(k, place, samples, own, aside)
+        samples, workspace = _own_of(k, aside)
+        strips = _solve_patch(k, place, samples, workspace, aside)
         aside.patches[k] = bench.search.patches[k]
         approach = max(approach, bench.contacts[k].approach)
         steepest = max(steepest, abs(math.tan(bench.contacts[k].angle)))
         if aside.linear[k] == 0.0 and bench.case[0].normal_family == NormalFamily.STRIP_HALFSPACE:
             share = ITERATED
         if strips > 0:
-            _roll_moved(k, samples, strips, own, aside)
+            _roll_moved(k, samples, strips, workspace, aside)
     for i in range(ROWS):
         aside.middle[i] = aside.forces[i]
     for i in range(bench.memory.size):
@@ -231,8 +231,8 @@ def _solve_neighbour(n, holds, aside):
         patch, middle = bench.search.patches[k], aside.patches[k]
         if holds:
             patch.vx, patch.vy, patch.phi = middle.vx, middle.vy, middle.phi
-        samples, own = _own_of(k, aside)
-        _solve_patch(k, _NEAR if holds else _OTHER, samples, own, aside)
+        samples, workspace = _own_of(k, aside)
+        _solve_patch(k, _NEAR if holds else _OTHER, samples, workspace, aside)
 
 
 @kernel
@@ -312,10 +312,10 @@ def _derive_by_velocity(j, n, aside):
         patch, moved = aside.patches[k], aside.bench.search.patches[k]
         axes = tilted(0.0, 0.0, 0.0, patch.angle, patch.pitch)[3:]
         slip(motion, axes, patch.x, patch.point_y, patch.point_z, moved)
-        own = 1.0 if j == Moved.VX and before > slowest else 0.0  # the creepages refer to this speed
-        creeps[k, 0, j] = (moved.vx * faster - patch.vx * speed - own * patch.vx) / speed
-        creeps[k, 1, j] = (moved.vy * faster - patch.vy * speed - own * patch.vy) / speed
-        creeps[k, 2, j] = (moved.phi * faster - patch.phi * speed - own * patch.phi) / speed
+        workspace = 1.0 if j == Moved.VX and before > slowest else 0.0  # the creepages refer to this speed
+        creeps[k, 0, j] = (moved.vx * faster - patch.vx * speed - workspace * patch.vx) / speed
+        creeps[k, 1, j] = (moved.vy * faster - patch.vy * speed - workspace * patch.vy) / speed
+        creeps[k, 2, j] = (moved.phi * faster - patch.phi * speed - workspace * patch.phi) / speed
         creeps[k, SPEED, j] = 1.0 if j == Moved.VX else 0.0
 
 

@@ -124,39 +124,39 @@ def set_rolling(strips: Matrix, n: int, case: Case) -> None:
 
 
 @kernel
-def _roll_patch(part, case, own, result):
+def _roll_patch(part, case, workspace, result):
     """Solve the tangential problem of one patch by the method of the case."""
     if case.tangential_family == TangentialFamily.FASTSIM:
-        fastsim(part, case, own, result)
+        fastsim(part, case, workspace, result)
     elif case.tangential_family == TangentialFamily.FASTRIP_MAPPED:
-        fastrip_mapped(part, case, own, result)
+        fastrip_mapped(part, case, workspace, result)
     elif case.tangential_family == TangentialFamily.CREEP_FORCE:
-        creep_force(part, case, own, result)
+        creep_force(part, case, workspace, result)
     else:
-        fastrip(part, case, own, result)
+        fastrip(part, case, workspace, result)
 
 
 @kernel
-def _roll(n, case, own, result):
+def _roll(n, case, workspace, result):
     """Solve the tangential problem patch by patch, with the friction and the creep stiffness of the surface."""
-    own.space.case[0] = case
-    surface = own.space.case[0]
+    workspace.space.case[0] = case
+    surface = workspace.space.case[0]
     surface.mu = of_case(case)
     first = 0
     while first < n:
-        last = end_of_patch(own.strips, n, first)
-        share, x, y = place_in_load(own.strips, n, first, last)
+        last = end_of_patch(workspace.strips, n, first)
+        share, x, y = place_in_load(workspace.strips, n, first, last)
         part = Part(first, last, share * result.N, x, y)
-        surface.G = stiffness_of(part, case, surface.mu * part.N, own)
-        _roll_patch(part, surface, own, result)
+        surface.G = stiffness_of(part, case, surface.mu * part.N, workspace)
+        _roll_patch(part, surface, workspace, result)
         first = last
 
 
 @kernel
-def complete_pressure(sep, n, case, own, result):
+def complete_pressure(sep, n, case, workspace, result):
     """Fill what follows from the pressures of `n` > 0 strips: gap error, fields, largest pressure, size of the patch."""
-    result.gap_error = gap_error(sep, n, case, own, result)
-    elements, strips, fields = own.rule.elements, own.strips, own.fields
+    result.gap_error = gap_error(sep, n, case, workspace, result)
+    elements, strips, fields = workspace.rule.elements, workspace.strips, workspace.fields
     area, x_low, x_high = 0.0, math.inf, -math.inf
     for i in range(n):
         a, xc_i, p0 = strips[Strip.A, i], strips[Strip.XC, i], strips[Strip.P0, i]
@@ -180,39 +180,39 @@ def complete_pressure(sep, n, case, own, result):
 
 
 @entry
-def press_case(sep: Samples, case: Case, own: Workspace, result: Result) -> int:
+def press_case(sep: Samples, case: Case, workspace: Workspace, result: Result) -> int:
     """Solve the normal problem; return the strip count."""
-    n = press(sep, case, own, result)
+    n = press(sep, case, workspace, result)
     if n > 0:
-        complete_pressure(sep, n, case, own, result)
+        complete_pressure(sep, n, case, workspace, result)
     return n
 
 
 @kernel
-def roll_case(sep, n, case, own, result):
+def roll_case(sep, n, case, workspace, result):
     """Solve the tangential problem of `n` > 0 strips, in the plane or on the bent surface. It may be solved again."""
-    strips = own.strips
+    strips = workspace.strips
     set_rolling(strips, n, case)
     bent = case.conformal != 0 and case.tangential_family != TangentialFamily.CREEP_FORCE
     if bent:
         bend(sep, case, strips, n)
-    _roll(n, case, own, result)
+    _roll(n, case, workspace, result)
     if result.limited != 0 and _bears_pressure(case):
-        _rescale_tractions(strips, n, case, own.rule.elements, own.fields, result)
+        _rescale_tractions(strips, n, case, workspace.rule.elements, workspace.fields, result)
     if not abs(result.Fx) + abs(result.Fy) + abs(result.Mz) + result.N < math.inf:
         result.status = Status.NOT_CONVERGED  # gaps or creepages so large that numbers overflow
     full = result.area * (1.0 - 1e-12)
     if result.status == Status.OK and case.mu > 0.0 and result.slip_area >= full:
         result.status = Status.SATURATED
     if bent:
-        project(strips, n, own.fields, result)
+        project(strips, n, workspace.fields, result)
     for i in range(n):
         strips[Strip.ASPECT, i] = math.exp(strips[Strip.ASPECT, i])
 
 
 @kernel
-def solve_case(sep, cases, own, results):
-    """Solve one case; fill the strips and fields of `own`, and `result`. Return the strip count.
+def solve_case(sep, cases, workspace, results):
+    """Solve one case; fill the strips and fields of `workspace`, and `result`. Return the strip count.
 
     Parameters
     ----------
@@ -224,9 +224,9 @@ def solve_case(sep, cases, own, results):
         meaning. A case on a bent surface (`case.conformal`) or with a limit of the pressure needs all rows.
     """
     case, result = cases[0], results[0]
-    n = press_case(sep, case, own, result)
+    n = press_case(sep, case, workspace, result)
     if n > 0:
-        roll_case(sep, n, case, own, result)
+        roll_case(sep, n, case, workspace, result)
     return n
 
 
@@ -238,20 +238,20 @@ def solve_cases(
     bounds: Integers,
     which: Integers,
     cases: Cases,
-    own: Workspace,
+    workspace: Workspace,
     results: Results,
 ) -> int:
     """Solve cases[first:last] one after the other. Return the strip count of the last one.
 
-    Separation k is samples[bounds[k]:bounds[k+1]], and case c uses which[c]. The first case starts from `own.space.memory`,
-    all others from nothing. Python calls it for single cases too.
+    Separation k is samples[bounds[k]:bounds[k+1]], and case c uses which[c]. The first case starts from the workspace's
+    memory, all others from nothing. Python calls it for single cases too.
     """
     y, g, A, x_c, tilt = samples.y, samples.g, samples.A, samples.x_c, samples.tilt
     n = 0
     for c in range(first, last):
         low, high = bounds[which[c]], bounds[which[c] + 1]
         if c > first:
-            own.space.memory[0] = 0.0
+            workspace.space.memory[0] = 0.0
         sep = Samples(y[low:high], g[low:high], A[low:high], x_c[low:high], tilt[low:high])
-        n = solve_case(sep, cases[c : c + 1], own, results[c : c + 1])
+        n = solve_case(sep, cases[c : c + 1], workspace, results[c : c + 1])
     return n

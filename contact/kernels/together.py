@@ -41,23 +41,23 @@ def _copy_with(n, copy, vx, vy, phi, strips):
 
 
 @kernel
-def roll_together(n, creepage, spin, case, own):
+def roll_together(n, creepage, spin, case, workspace):
     """Roll `n` strips with one more `creepage` along x, in copy 0, along y, in copy 1, or `spin` [1/m], in copy 2.
 
     The rows from TO_X on then hold what each strip bears: Fx, Fy, Mz, and in the two after them slip power and work.
     """
-    strips, elements, lanes = own.strips, own.rule.elements, own.space.lanes
+    strips, elements, lanes = workspace.strips, workspace.rule.elements, workspace.space.lanes
     set_rolling(strips, n, case)
-    of_patch = set_shapes(0, n, own)
+    of_patch = set_shapes(0, n, workspace)
     _copy_with(n, 2, case.vx, case.vy, case.phi + spin, strips)
     _copy_with(n, 1, case.vx, case.vy + creepage, case.phi, strips)
     _copy_with(n, 0, case.vx + creepage, case.vy, case.phi, strips)
     for copy in range(COPIES):
-        set_effective(strips, copy * n, (copy + 1) * n, case, of_patch, own.tables)
+        set_effective(strips, copy * n, (copy + 1) * n, case, of_patch, workspace.tables)
     last = COPIES * n
     for block in range(0, last, LANES):
-        set_block(strips, block, last, case, own.tables.kalker, of_patch, lanes)
-        march(Uneven(0), elements, lanes, own.space.trace)
+        set_block(strips, block, last, case, workspace.tables.kalker, of_patch, lanes)
+        march(Uneven(0), elements, lanes, workspace.space.trace)
         add_zone(elements, lanes)
         for l in range(min(LANES, last - block)):
             i = block + l

@@ -238,7 +238,7 @@ def test_interacting_strips_start_from_the_last_call_unless_the_patches_changed(
 def test_results_do_not_depend_on_old_content_of_scratch_arrays(normal):
     """Only `memory` passes from one call to the next, so it is the whole FMU state."""
     pair = make(normal=normal)
-    own, search = pair.bench.own, pair.bench.search
+    own, search = pair.bench.workspace, pair.bench.search
     scratch = [
         a
         for a in (*own.space, own.strips, own.fields, *search[4:11])

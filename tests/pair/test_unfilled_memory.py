@@ -38,7 +38,7 @@ def fill(array, rng):
 )
 def test_what_the_memory_held_does_not_matter(methods):
     pair = WheelRailPair(Pair(profile.s1002(), profile.rail_60e1(1.0 / 40.0)), **methods)
-    left = ("own.rule", "own.tables", "ledger")
+    left = ("workspace.rule", "workspace.tables", "ledger")
     own = {n: a for n, a in arrays(pair.bench) if n not in GIVEN and not n.startswith(left) and a.size}
     assert {"search.lobes", "search.patches", "contacts", "total"} <= set(own)
     rng = np.random.default_rng(3)
@@ -58,7 +58,7 @@ def test_what_the_memory_held_does_not_matter(methods):
 def test_what_the_memory_of_surfaces_held_does_not_matter():
     """The last motion must only be known as none: its radius is 0."""
     pair = WheelRailPair(SurfacePair(profile.s1002(), crossing(), rail_origin=(0.75, 0.0)), normal="analyn")
-    left = ("own.rule", "own.tables", "ledger", "search.wheel.", "search.rail.")
+    left = ("workspace.rule", "workspace.tables", "ledger", "search.wheel.", "search.rail.")
     own = {n: a for n, a in arrays(pair.bench) if n not in GIVEN and not n.startswith(left) and a.size}
     assert {"search.coarse", "search.boxes", "search.h", "total"} <= set(own)
     rng = np.random.default_rng(3)

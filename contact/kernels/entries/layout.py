@@ -65,9 +65,9 @@ def forget_forged(kept):
 
 
 @arranging
-def fill(own, poisson_ratio, constants):
+def fill(workspace, poisson_ratio, constants):
     """Fill the arrays that depend only on resolution and material. `constants` are pointers to the arrays of `tables.data`."""
-    rule, tables = own.rule, own.tables
+    rule, tables = workspace.rule, workspace.tables
     quadrature.fill_fejer(rule.across.nodes, rule.across.weights)
     quadrature.fill_elements(rule.elements)
     quadrature.fill_panel(rule.cosines, rule.cosine_logs)

@@ -66,9 +66,9 @@ def lay_bench(work, end, profiles, facing, size, kept, bins, constants):
     `profiles` are the rows of wheel and rail, `facing` how many nodes of them can touch, `kept` is the warm start.
     """
     search, end = memory.lay_search(work, end, facing[0], facing[1], 0, size.n_samples)
-    own, at_strips, end = lay_out(work, end, kept[1 : 1 + memory.memory_size(size)], size, constants)
+    workspace, at_strips, end = lay_out(work, end, kept[1 : 1 + memory.memory_size(size)], size, constants)
     ledger, end = memory.lay_ledger(work, end, profiles[0], profiles[1], bins, size.n_strips)
-    bench, end = memory.lay_bench(work, end, size, kept, search, own, ledger)
+    bench, end = memory.lay_bench(work, end, size, kept, search, workspace, ledger)
     return bench, at_strips, end
 
 
@@ -257,7 +257,7 @@ def pair_init(sizes, work, wheel, rail, motion, case, parameters, gauge, gauge_p
     copy_rows(whole_rail, ledger.rail)
     fill_profiles(bench)
     set_options(motion, y, z, case, parameters, bench)
-    fill(bench.own, bench.case[0].nu, given.data)
+    fill(bench.workspace, bench.case[0].nu, given.data)
     ledger.settings[0].start, ledger.settings[0].width = start / width, width
     return 0
 

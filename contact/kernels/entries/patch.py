@@ -27,7 +27,7 @@ class _Laid(NamedTuple):
     """All arrays in the caller's memory."""
 
     kept: Any
-    own: Workspace
+    workspace: Workspace
     damage_fields: Any
     searches: Any
 
@@ -38,18 +38,18 @@ def _lay(sizes, work, constants):
     size = size_of(sizes)
     kept, end = block.vector(work, 0, memory.memory_size(size))
     trial, end = block.vector(work, end, memory.memory_size(size))
-    own, at_strips, end = lay_out(work, end, trial, size, constants)
+    workspace, at_strips, end = lay_out(work, end, trial, size, constants)
     damage_fields, end = block.cube(work, end, len(DamageField), MAX_PATCHES * size.n_strips, size.n_elements)
     searches, end = block.records(work, end, 1, FORCE_SEARCH)
-    return _Laid(kept, own, damage_fields, searches), at_strips, end
+    return _Laid(kept, workspace, damage_fields, searches), at_strips, end
 
 
 @arranging
 def _start(sizes, work, given):
     """Return all arrays. The next solution starts from the kept start."""
     a, _, _ = _lay(sizes, work, given.data)
-    copy(a.kept, a.own.space.memory)
-    forget_forged(a.own.space.memory)
+    copy(a.kept, a.workspace.space.memory)
+    forget_forged(a.workspace.space.memory)
     return a
 
 
@@ -78,9 +78,9 @@ def contact_strips(sizes, given):
 def contact_init(sizes, poisson_ratio, work, given):
     """Fill what depends only on resolution and material, and empty the warm start."""
     a, _, _ = _lay(sizes, work, given.data)
-    fill(a.own, poisson_ratio, given.data)
+    fill(a.workspace, poisson_ratio, given.data)
     a.kept[:] = 0.0
-    a.own.space.memory[:] = 0.0
+    a.workspace.space.memory[:] = 0.0
     return 0
 
 
@@ -88,11 +88,11 @@ def contact_solve(sizes, work, cold, n, y, g, A, x_c, tilt, case, result, given)
     """Solve one case from the kept start, or with `cold` from nothing. Return the number of strips."""
     a = _start(sizes, work, given)
     if cold != 0:
-        a.own.space.memory[0] = 0.0
+        a.workspace.space.memory[0] = 0.0
     samples = _samples(n, y, g, A, x_c, tilt)
     cases, _ = block.records(case, 0, 1, CASE)
     results, _ = block.records(result, 0, 1, RESULT)
-    return solve_case(samples, cases, a.own, results)
+    return solve_case(samples, cases, a.workspace, results)
 
 
 def contact_force(sizes, work, which, Fx, Fy, n, y, g, A, x_c, tilt, case, results, given):
@@ -101,7 +101,7 @@ def contact_force(sizes, work, which, Fx, Fy, n, y, g, A, x_c, tilt, case, resul
     samples = _samples(n, y, g, A, x_c, tilt)
     cases, _ = block.records(case, 0, 1, CASE)
     two_results, _ = block.records(results, 0, 2, RESULT)
-    return solve_under_force(samples, cases, a.own, two_results, a.searches, which, Fx, Fy)
+    return solve_under_force(samples, cases, a.workspace, two_results, a.searches, which, Fx, Fy)
 
 
 def contact_derivatives(sizes, work, n, y, g, A, x_c, tilt, cases, results, jacobian, given):
@@ -111,13 +111,13 @@ def contact_derivatives(sizes, work, n, y, g, A, x_c, tilt, cases, results, jaco
     two_cases, _ = block.records(cases, 0, 2, CASE)
     two_results, _ = block.records(results, 0, 2, RESULT)
     matrix, _ = block.matrix(jacobian, 0, ROWS, COLUMNS)
-    return solve_with_jacobian(samples, two_cases, a.own, two_results, matrix)
+    return solve_with_jacobian(samples, two_cases, a.workspace, two_results, matrix)
 
 
 def contact_accept(sizes, work, given):
     """Make what the last solution has left the start of the following ones."""
     a, _, _ = _lay(sizes, work, given.data)
-    copy(a.own.space.memory, a.kept)
+    copy(a.workspace.space.memory, a.kept)
     return 0
 
 
@@ -125,7 +125,7 @@ def contact_forget(sizes, work, given):
     """Let the following solutions start from nothing."""
     a, _, _ = _lay(sizes, work, given.data)
     a.kept[:] = 0.0
-    a.own.space.memory[:] = 0.0
+    a.workspace.space.memory[:] = 0.0
     return 0
 
 
@@ -136,8 +136,8 @@ def contact_damage(sizes, work, n, case, result, parameters, damage, given):
     results, _ = block.records(result, 0, 1, RESULT)
     constants, _ = block.records(parameters, 0, 1, DAMAGE_PARAMETERS)
     out, _ = block.records(damage, 0, 1, DAMAGE)
-    own = a.own
-    damage_kernel(own.strips, n, own.fields, cases[0], results[0], constants[0], a.damage_fields, out[0])
+    workspace = a.workspace
+    damage_kernel(workspace.strips, n, workspace.fields, cases[0], results[0], constants[0], a.damage_fields, out[0])
     return 0
 
 

@@ -100,11 +100,11 @@ def lay_bench(work, end, wheel, n_wheel, rail, n_rail, size, kept, constants):
     of_rail, end = lay_surface(work, end, rail, n_rail)
     search, end = memory.lay_surface_search(work, end, of_wheel, of_rail, size.n_samples)
     piece = memory.memory_size(size)
-    own, at_strips, end = lay_out(work, end, kept[1 : 1 + piece], size, constants)
+    workspace, at_strips, end = lay_out(work, end, kept[1 : 1 + piece], size, constants)
     nothing, _ = block.matrix(work, end, N_PROFILE_ROWS, 0)
     bins, _ = block.cube(work, end, 2, len(Bin), 0)
     ledger, end = memory.lay_ledger(work, end, nothing, nothing, bins, 0)
-    bench, end = memory.lay_bench(work, end, size, kept, search, own, ledger)
+    bench, end = memory.lay_bench(work, end, size, kept, search, workspace, ledger)
     return bench, at_strips, end
 
 
@@ -193,7 +193,7 @@ def surfaces_init(sizes, work, wheel, rail, motion, case, parameters, given):
     y, z = place_of(rail)
     set_options(motion, y, z, case, parameters, bench)
     prepare_search(wheel, n_wheel, bench.search)
-    fill(bench.own, bench.case[0].nu, given.data)
+    fill(bench.workspace, bench.case[0].nu, given.data)
     _, aside, _ = _lay_all(sizes, ahead(work, 0), ahead(work, n_wheel), work, given.data)
     prepare_search(wheel, n_wheel, aside.bench.search)
     return at_strips

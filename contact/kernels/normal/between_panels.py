@@ -54,9 +54,9 @@ def _spread(u, spread, out):
 
 
 @kernel
-def distances(panels, n_panels, own):
-    """Fill `own.space.logs[i, k]` with ln|Y_k - y_i| of every probe i to every edge k of other panels; n + 1 edges a panel."""
-    cosines, vectors, logs = own.rule.cosines, own.space.vectors, own.space.logs
+def distances(panels, n_panels, workspace):
+    """Fill `workspace.space.logs[i, k]` with ln|Y_k - y_i| of each probe i to each edge k of other panels, n + 1 a panel."""
+    cosines, vectors, logs = workspace.rule.cosines, workspace.space.vectors, workspace.space.logs
     n = cosines.size - 1
     for p in range(n_panels):
         least = 0.5e-12 * (panels[2 * p + 1] - panels[2 * p])
@@ -65,19 +65,29 @@ def distances(panels, n_panels, own):
                 continue
             centre, half = 0.5 * (panels[2 * q] + panels[2 * q + 1]), 0.5 * (panels[2 * q + 1] - panels[2 * q])
             for m in range(PROBES):
-                at = vectors[Vector.Y, p * n + int(own.rule.probes[m])]
+                at = vectors[Vector.Y, p * n + int(workspace.rule.probes[m])]
                 for k in range(n + 1):
                     logs[p * PROBES + m, q * (n + 1) + k] = math.log(max(abs(centre + half * cosines[k] - at), least))
 
 
 @kernel
-def assemble_others(n_panels, own, unit):
-    """Fill `own.space.matrix[j, i]` for every strip j and the strips i of the other panels.
+def assemble_others(n_panels, workspace, unit):
+    """Fill `workspace.space.matrix[j, i]` for every strip j and the strips i of the other panels.
 
     It is the displacement on the centre line of strip i by unit peak pressure on strip j. `unit` is 1/(pi E*).
     """
-    vectors, logs, matrix, at_probes = own.space.vectors, own.space.logs, own.space.matrix, own.space.vectors[Vector.Q1]
-    probes, spread, centre, plane = own.rule.probes, own.rule.spread, own.tables.centre, own.tables.plane
+    vectors, logs, matrix, at_probes = (
+        workspace.space.vectors,
+        workspace.space.logs,
+        workspace.space.matrix,
+        workspace.space.vectors[Vector.Q1],
+    )
+    probes, spread, centre, plane = (
+        workspace.rule.probes,
+        workspace.rule.spread,
+        workspace.tables.centre,
+        workspace.tables.plane,
+    )
     n = spread.shape[1]
     for q in range(n_panels):
         for j in range(q * n, q * n + n):
@@ -97,20 +107,25 @@ def assemble_others(n_panels, own, unit):
 
 
 @kernel
-def add_others(p, n_panels, own, skewed):
+def add_others(p, n_panels, workspace, skewed):
     """Add to Vector.U the displacement at the ends of panel p's strips by the other panels, the mean of both ends.
 
     The rows Q2 and R of the vectors hold 1/a and p0·a/(pi E*). Both ends differ if strips are `skewed`. Then
     Vector.DIFFERENCE gets their difference.
     """
-    vectors, logs, spread, plane = own.space.vectors, own.space.logs, own.rule.spread, own.tables.plane
+    vectors, logs, spread, plane = (
+        workspace.space.vectors,
+        workspace.space.logs,
+        workspace.rule.spread,
+        workspace.tables.plane,
+    )
     n = spread.shape[1]
     U, difference = vectors[Vector.U, p * n : p * n + n], vectors[Vector.DIFFERENCE, p * n : p * n + n]
     logs_a, inverses = vectors[Vector.LN_LENGTH], vectors[Vector.Q2]
     forces, loci = vectors[Vector.R], vectors[Vector.XC]
     pairs = vectors[Vector.PAIRS : Vector.PAIRS + len(Pair)]
     for m in range(PROBES):
-        strip = p * n + int(own.rule.probes[m])
+        strip = p * n + int(workspace.rule.probes[m])
         a, x, at = vectors[Vector.A, strip], loci[strip], logs[p * PROBES + m]
         trailing, leading = 0.0, 0.0
         for q in range(n_panels):

@@ -82,14 +82,14 @@ def _overlap_at(sep, at, n, delta, per_modulus, strips, vectors, plane, result):
 
 
 @kernel
-def gap_error(sep, n, case, own, result):
+def gap_error(sep, n, case, workspace, result):
     """Return the largest gap or overlap left, over the approach [-]; 1 at most.
 
     Gaps are evaluated at the middles of `CHECKED` of n strips, on skewed strips beside them, overlaps also where a lobe
     may have been missed and beside the ends of the patches.
     """
     y, g, size = sep.y, sep.g, sep.y.size
-    strips, vectors, plane = own.strips, own.space.vectors, own.tables.plane
+    strips, vectors, plane = workspace.strips, workspace.space.vectors, workspace.tables.plane
     delta = result.approach - result.touch
     if not delta > 0.0 or n == 0:
         return 0.0

@@ -58,8 +58,8 @@ class Problem(NamedTuple):
     """What stays the same while the normal problem is solved."""
 
     sep: Any
-    own: Any
-    result: Any  # ANALYN's, with `n_strips` strips in `own.strips`
+    workspace: Any
+    result: Any  # ANALYN's, with `n_strips` strips in `workspace.strips`
     n_strips: Any
     panels: Any  # ends of the panels [m], which change
     touch: Any  # approach at first touch [m]
@@ -82,9 +82,9 @@ def _reset(problem, warm, state):
 @kernel
 def _start_afresh(problem, state):
     """Start from ANALYN's patches, under yaw from turned ellipses instead of them."""
-    own, panels = problem.own, problem.panels
-    strips, vectors, n = own.strips, own.space.vectors, own.rule.across.nodes.size
-    state.n_panels = start_panels(problem.n_strips, n, strips, problem.result, panels, own.rule.cosines, vectors)
+    workspace, panels = problem.workspace, problem.panels
+    strips, vectors, n = workspace.strips, workspace.space.vectors, workspace.rule.across.nodes.size
+    state.n_panels = start_panels(problem.n_strips, n, strips, problem.result, panels, workspace.rule.cosines, vectors)
     if problem.skew > 0.0:
         turn_panels(problem.sep, state.n_panels, n, strips, problem.skew, problem.by_load, panels, vectors)
     _reset(problem, 0, state)
@@ -106,7 +106,7 @@ def begin(problem, n_panels, most, state):
 @kernel
 def _note(problem, state, error, moved, approach, n_panels):
     """Keep what an iteration found, for who wants to see it (`contact.view.trace`)."""
-    iterates, panels = problem.own.space.iterates, problem.panels
+    iterates, panels = problem.workspace.space.iterates, problem.panels
     row = iterates[min(state.number, iterates.shape[0] - 1)]
     row[Iterate.ERROR], row[Iterate.MOVED], row[Iterate.APPROACH] = error, moved, approach
     row[Iterate.PANELS], row[Iterate.EVENTS] = n_panels, state.events
@@ -117,7 +117,7 @@ def _note(problem, state, error, moved, approach, n_panels):
 @kernel
 def _note_event(problem, state, event):
     """Keep an event of this iteration, which changes the panels for the next one."""
-    iterates = problem.own.space.iterates
+    iterates = problem.workspace.space.iterates
     state.events += event
     iterates[min(state.number, iterates.shape[0] - 1), Iterate.EVENTS] = state.events
 
@@ -129,15 +129,15 @@ def _evaluate(problem, state):
     Where a seventh of a panel is idle, it is cut off and the next iteration has other strips. Then only the pressures
     count, and the residuals of the ends. Panels without load are removed.
     """
-    own, panels, skewed = problem.own, problem.panels, problem.skew > 0.0
-    vectors, n, age = own.space.vectors, own.rule.across.nodes.size, state.number - state.begun
+    workspace, panels, skewed = problem.workspace, problem.panels, problem.skew > 0.0
+    vectors, n, age = workspace.space.vectors, workspace.rule.across.nodes.size, state.number - state.begun
     state.error, state.load = math.inf, 0.0
     state.approach = find_pressures(problem, state.approach, state.n_panels)
     if not abs(state.approach) < math.inf:
         return False
     cut = age < FREEZE and have_idle_part(n, state.n_panels, vectors)
     if not cut:
-        edge_displacements(panels, state.n_panels, own, skewed, problem.unit)
+        edge_displacements(panels, state.n_panels, workspace, skewed, problem.unit)
     weight = straightening(n, state.stiff) if skewed else 0.0
     state.error, state.load = fill_residuals(n, n * state.n_panels, state.approach, cut, skewed, weight, vectors)
     before = state.n_panels
@@ -146,7 +146,9 @@ def _evaluate(problem, state):
         return False
     lost = state.n_panels < before
     calm = not skewed or state.error < CLOSE * math.sqrt(problem.tolerance) * state.load
-    state.moved = end_moves(problem.sep.y, n, state.n_panels, panels, own.rule.cosines, vectors, age >= FREEZE, calm)
+    state.moved = end_moves(
+        problem.sep.y, n, state.n_panels, panels, workspace.rule.cosines, vectors, age >= FREEZE, calm
+    )
     if not cut:
         note_sides(n, state.n_panels, panels, vectors, state.mixed == 0 or lost)
     state.cut, state.anew = 1 if cut else 0, 1 if lost or age == FREEZE else 0
@@ -159,7 +161,7 @@ def _evaluate(problem, state):
 @kernel
 def _can_descend(problem, state):
     """Return whether there is a Jacobian for every panel: its loaded strips lie side by side, and none is cut off now."""
-    rule, vectors = problem.own.rule, problem.own.space.vectors
+    rule, vectors = problem.workspace.rule, problem.workspace.space.vectors
     n = rule.across.nodes.size
     plain = PLAIN_SKEWED if problem.skew >= 1.0 else PLAIN
     if rule.descent.shape[1] != n or state.number - state.begun >= plain or state.cut != 0:
@@ -179,8 +181,13 @@ def _fill_step(problem, state):
     the unknowns or the kind of step change, and where the residual has doubled; from iteration 22 (18) on where it rises,
     and without skew always.
     """
-    own, panels, skewed = problem.own, problem.panels, problem.skew > 0.0
-    rule, vectors, n, age = own.rule, own.space.vectors, own.rule.across.nodes.size, state.number - state.begun
+    workspace, panels, skewed = problem.workspace, problem.panels, problem.skew > 0.0
+    rule, vectors, n, age = (
+        workspace.rule,
+        workspace.space.vectors,
+        workspace.rule.across.nodes.size,
+        state.number - state.begun,
+    )
     plain = PLAIN_SKEWED if problem.skew >= 1.0 else PLAIN
     frozen, before = age >= FREEZE, state.descending
     state.descending = 1 if _can_descend(problem, state) else 0
@@ -202,7 +209,7 @@ def _fill_step(problem, state):
             vectors[Vector.OFFSET_R, i] *= 0.5
     state.left = 0.0
     if state.cut == 0:
-        state.left = mix(n, state.n_panels, panels, vectors, state.load, state.mixed, skewed, own.space.lu)
+        state.left = mix(n, state.n_panels, panels, vectors, state.load, state.mixed, skewed, workspace.space.lu)
 
 
 @kernel
@@ -211,16 +218,21 @@ def _search(problem, state, least):
 
     Return whether there is any. Where a panel is added, the others take their step and need not wait for it.
     """
-    own, panels, vectors, before = problem.own, problem.panels, problem.own.space.vectors, state.n_panels
+    workspace, panels, vectors, before = (
+        problem.workspace,
+        problem.panels,
+        problem.workspace.space.vectors,
+        state.n_panels,
+    )
     state.searched = 1
     state.n_panels, found = extend_to_ghosts(
-        problem.sep, problem.touch, state.approach, least, problem.unit, problem.skew, before, panels, own
+        problem.sep, problem.touch, state.approach, least, problem.unit, problem.skew, before, panels, workspace
     )
     if found:
         state.found, state.mixed, state.best = 1, 0, math.inf
         _note_event(problem, state, Event.FOUND.value)
         if state.n_panels > before:
-            advance(own.rule.across.nodes.size, before, panels, vectors, problem.skew > 0.0)
+            advance(workspace.rule.across.nodes.size, before, panels, vectors, problem.skew > 0.0)
     return found
 
 
@@ -230,16 +242,16 @@ def _part(problem, state):
 
     The ends of skewed parts need some iterations before they are fixed.
     """
-    own, panels, vectors = problem.own, problem.panels, problem.own.space.vectors
-    n, age = own.rule.across.nodes.size, state.number - state.begun
+    workspace, panels, vectors = problem.workspace, problem.panels, problem.workspace.space.vectors
+    n, age = workspace.rule.across.nodes.size, state.number - state.begun
     if (
         age >= (BRACKET if problem.skew > 0.0 else FREEZE)
         or state.cut != 0
         or state.parted == MOST_PARTED
-        or not have_gap(n, state.n_panels, own.rule.cosines, vectors)
+        or not have_gap(n, state.n_panels, workspace.rule.cosines, vectors)
     ):
         return False
-    state.n_panels = part_panels(n, state.n_panels, panels, own.rule.cosines, vectors)
+    state.n_panels = part_panels(n, state.n_panels, panels, workspace.rule.cosines, vectors)
     state.parted, state.mixed, state.best = state.parted + 1, 0, math.inf
     _note_event(problem, state, Event.PARTED.value)
     return True
@@ -248,17 +260,17 @@ def _part(problem, state):
 @kernel
 def _take(problem, state):
     """Take the step, or cut off idle parts. The ends stay within their brackets. Panels that overlap are joined."""
-    own, panels, vectors = problem.own, problem.panels, problem.own.space.vectors
-    n, age = own.rule.across.nodes.size, state.number - state.begun
+    workspace, panels, vectors = problem.workspace, problem.panels, problem.workspace.space.vectors
+    n, age = workspace.rule.across.nodes.size, state.number - state.begun
     if state.cut != 0:
-        cut_idle(n, state.n_panels, panels, own.rule.cosines, vectors)
+        cut_idle(n, state.n_panels, panels, workspace.rule.cosines, vectors)
         state.mixed = 0
     elif state.found == 0:
         if BRACKET <= age < FREEZE:
             keep_between(n, state.n_panels, panels, vectors)
         advance(n, state.n_panels, panels, vectors, problem.skew > 0.0)
         state.mixed += 1
-    state.n_panels, joined = join_panels(n, state.n_panels, panels, own.rule.cosines, vectors)
+    state.n_panels, joined = join_panels(n, state.n_panels, panels, workspace.rule.cosines, vectors)
     if joined:
         state.mixed, state.best = 0, math.inf
         _note_event(problem, state, Event.JOINED.value)
@@ -273,7 +285,7 @@ def _stiffen(state):
 @kernel
 def _swings(problem, state):
     """Return whether one strip stands alone, which may be a zigzag of the middles and no peak, where offsets count in full."""
-    vectors, n = problem.own.space.vectors, problem.own.rule.across.nodes.size
+    vectors, n = problem.workspace.space.vectors, problem.workspace.rule.across.nodes.size
     return problem.skew >= 1.0 and state.stiff == 0 and stands_alone(n * state.n_panels, vectors)
 
 
@@ -284,7 +296,7 @@ def _seeks(problem, state):
     That is once, and in skewed patches again while an end is far from its place of rest. Where a thin bridge joins two
     lobes, the rule of the ends would need dozens of iterations to cross it.
     """
-    rule, age = problem.own.rule, state.number - state.begun
+    rule, age = problem.workspace.rule, state.number - state.begun
     if state.cut != 0 or state.searched == 0:
         return state.cut == 0
     due = problem.skew > 0.0 and age >= SEEK and (age - SEEK) % EVERY == 0
@@ -323,7 +335,7 @@ def accept(problem, state):
 @kernel
 def _keep_best(problem, state):
     """Store half lengths, offsets and ends in the rows BEST of the best iterate since the ends were fixed."""
-    panels, vectors, n = problem.panels, problem.own.space.vectors, problem.own.rule.across.nodes.size
+    panels, vectors, n = problem.panels, problem.workspace.space.vectors, problem.workspace.rule.across.nodes.size
     if state.anew != 0:
         state.best = math.inf
     if state.number - state.begun < FREEZE or state.cut != 0 or not state.last_error < state.best:
@@ -338,7 +350,7 @@ def _keep_best(problem, state):
 @kernel
 def _take_best(problem, state):
     """Restore the half lengths, ends and offsets that `_keep_best` stored."""
-    panels, vectors, n = problem.panels, problem.own.space.vectors, problem.own.rule.across.nodes.size
+    panels, vectors, n = problem.panels, problem.workspace.space.vectors, problem.workspace.rule.across.nodes.size
     for p in range(state.n_panels):
         first, last = p * n, p * n + n - 1
         panels[2 * p], panels[2 * p + 1] = vectors[Vector.BEST, first], vectors[Vector.BEST, last]
@@ -360,7 +372,7 @@ def step(problem, state):
         _start_afresh(problem, state)
         state.events = Event.AGAIN.value
     _note(problem, state, math.inf, 0.0, 0.0, 0)
-    few = problem.own.rule.across.nodes.size <= COARSE  # more strips are straightened much already
+    few = problem.workspace.rule.across.nodes.size <= COARSE  # more strips are straightened much already
     if problem.skew > 0.0 and few and state.stiff == 0 and state.number - state.begun == DAMPED:
         _stiffen(state)
     if not _evaluate(problem, state):
@@ -379,10 +391,10 @@ def finish(problem, state):
         return
     if state.converged != 0:
         advance(
-            problem.own.rule.across.nodes.size,
+            problem.workspace.rule.across.nodes.size,
             state.n_panels,
             problem.panels,
-            problem.own.space.vectors,
+            problem.workspace.space.vectors,
             problem.skew > 0.0,
         )
     elif state.n_panels > 0 and state.best * state.load < state.error:

@@ -22,15 +22,15 @@ OPENED = 0.15
 
 
 @kernel
-def lay_panels(sep, g_least, skew, panels, n_panels, own):
+def lay_panels(sep, g_least, skew, panels, n_panels, workspace):
     """Fill strip positions, mean gaps, curvatures and loci for the present ends of the panels.
 
     `skew` scales the loci.
     """
-    y, g, A, xc, cosines, vectors = sep.y, sep.g, sep.A, sep.x_c, own.rule.cosines, own.space.vectors
+    y, g, A, xc, cosines, vectors = sep.y, sep.g, sep.A, sep.x_c, workspace.rule.cosines, workspace.space.vectors
     n = cosines.size - 1
     size = y.size
-    m = own.space.grid[Sample.GAP_SLOPE]
+    m = workspace.space.grid[Sample.GAP_SLOPE]
     k = 0
     for p in range(n_panels):
         centre = 0.5 * (panels[2 * p] + panels[2 * p + 1])
@@ -228,10 +228,14 @@ def _summarise(n: int, n_panels: int, vectors: Matrix, unit: float) -> None:
         load, moment, along, square = 0.0, 0.0, 0.0, 0.0
         for j in range(first, first + n):
             a, h, at, locus = vectors[Vector.A, j], vectors[Vector.HALF, j], vectors[Vector.Y, j], vectors[Vector.XC, j]
-            own, spread = math.pi * unit * vectors[Vector.P, j] * a * h, 0.25 * a * a + h * h / 3.0
-            vectors[Vector.REACH, j], vectors[Vector.SPREAD, j] = own, spread
-            load, moment, square = load + own, moment + own * at, square + own * (at * at + locus * locus + spread)
-            along += own * locus
+            workspace, spread = math.pi * unit * vectors[Vector.P, j] * a * h, 0.25 * a * a + h * h / 3.0
+            vectors[Vector.REACH, j], vectors[Vector.SPREAD, j] = workspace, spread
+            load, moment, square = (
+                load + workspace,
+                moment + workspace * at,
+                square + workspace * (at * at + locus * locus + spread),
+            )
+            along += workspace * locus
         middle, locus = (moment / load, along / load) if load > 0.0 else (0.0, 0.0)
         vectors[Vector.REACH_OF_PANEL, first], vectors[Vector.MIDDLE_OF_PANEL, first] = load, middle
         spread = max(square / load - middle * middle - locus * locus, 1e-300) if load > 0.0 else 1.0
@@ -276,15 +280,15 @@ def _is_overlapped(
 
 
 @kernel
-def extend_to_ghosts(sep, g_least, delta, least, unit, skew, n_panels, panels, own):
+def extend_to_ghosts(sep, g_least, delta, least, unit, skew, n_panels, panels, workspace):
     """Widen the nearest panel or open a new one where the gap outside all panels would be overlapped.
 
     It is sought on the line of least gap. `skew` scales its offsets along x, as in `lay_panels`. Return the number of
     panels and whether anything changed. Without this a second patch that the start solution missed would not be found
     (strip_halfspace.md 2, step 5).
     """
-    y, g, cosines, vectors = sep.y, sep.g, own.rule.cosines, own.space.vectors
-    centre, plane = own.tables.centre, own.tables.plane
+    y, g, cosines, vectors = sep.y, sep.g, workspace.rule.cosines, workspace.space.vectors
+    centre, plane = workspace.tables.centre, workspace.tables.plane
     size, n = y.size, cosines.size - 1
     known = n_panels  # new panels displace nothing during the search for further ghosts
     changed = False

@@ -76,15 +76,15 @@ def _half_length(i, at, strips):
 
 
 @kernel
-def _top_of_parts(sep, i, n, unit, own):
+def _top_of_parts(sep, i, n, unit, workspace):
     """Return the largest pressure of the parts of strip i and its neighbours, which lie in the same patch [Pa].
 
     What closes the gap at these strips beside the pressure of the nearest ones, approach and all distant strips, is
     smooth: a parabola. The outer parts make up for the pressure of the strips beside them, which has a step there. They do
     not count.
     """
-    strips, vectors, lu, centre = own.strips, own.space.vectors, own.space.lu, own.tables.centre
-    slopes, rest, patch = own.space.grid[Sample.GAP_SLOPE], vectors[Vector.U], strips[Strip.PATCH]
+    strips, vectors, lu, centre = workspace.strips, workspace.space.vectors, workspace.space.lu, workspace.tables.centre
+    slopes, rest, patch = workspace.space.grid[Sample.GAP_SLOPE], vectors[Vector.U], strips[Strip.PATCH]
     at, pressures, unused = vectors[Vector.R], vectors[Vector.Q1], vectors[Vector.Q2]
     nearest, beyond = max(i - 2, 0), min(i + 3, n)
     for s in range(i - 1, i + 2):
@@ -119,19 +119,19 @@ def _top_of_parts(sep, i, n, unit, own):
 
 
 @kernel
-def _found(sep, i, n, unit, own):
+def _found(sep, i, n, unit, workspace):
     """Return the largest pressure around strip i, a peak. If a neighbour has nearly its pressure, both are divided.
 
     Otherwise the answer would jump where the peak moves from one strip to the next.
     """
-    p, patch = own.strips[Strip.P0], own.strips[Strip.PATCH]
-    top = _top_of_parts(sep, i, n, unit, own)
+    p, patch = workspace.strips[Strip.P0], workspace.strips[Strip.PATCH]
+    top = _top_of_parts(sep, i, n, unit, workspace)
     k = i + 1 if p[i + 1] > p[i - 1] else i - 1
     apart = min((p[i] - p[k]) / (_ALIKE * p[i]), 1.0)
     if apart == 1.0 or not 0 < k < n - 1 or patch[k - 1] != patch[k + 1]:
         return top
     share = 0.5 + 0.5 * apart * apart * (3.0 - 2.0 * apart)
-    return share * top + (1.0 - share) * _top_of_parts(sep, k, n, unit, own)
+    return share * top + (1.0 - share) * _top_of_parts(sep, k, n, unit, workspace)
 
 
 @kernel
@@ -143,9 +143,9 @@ def _beside(i, step, n, strips):
 
 
 @kernel
-def peak_between_strips(sep, n, unit, own):
+def peak_between_strips(sep, n, unit, workspace):
     """Return the largest pressure found between `n` strips where a peak is sharp [Pa]; 0 if none is."""
-    strips, panel = own.strips, own.rule.cosines.size - 1
+    strips, panel = workspace.strips, workspace.rule.cosines.size - 1
     if panel < _FEWEST:
         return 0.0
     p, patch, angle = strips[Strip.P0], strips[Strip.PATCH], math.pi / panel
@@ -157,6 +157,6 @@ def peak_between_strips(sep, n, unit, own):
             bend = (p[i - 1] - _beside(i, -1, n, strips) + p[i + 1] - _beside(i, 1, n, strips)) / p[i]
             share = min(max((bend / of_ellipse - _SHARP) / (_SHARPEST - _SHARP), 0.0), 1.0)
             if share > 0.0:
-                found = _found(sep, i, n, unit, own)
+                found = _found(sep, i, n, unit, workspace)
                 top = max(top, p[i] + share * share * (3.0 - 2.0 * share) * (found - p[i]))
     return top

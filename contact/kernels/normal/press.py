@@ -55,14 +55,14 @@ def fill_limited(elements, p0, limit, row):
 
 
 @kernel
-def _elastic(sep, case, own, result):
+def _elastic(sep, case, workspace, result):
     """Solve the elastic normal problem by the method of the case; return the strip count."""
-    across, grid, strips = own.rule.across, own.space.grid, own.strips
+    across, grid, strips = workspace.rule.across, workspace.space.grid, workspace.strips
     clear(result)
     if case.normal_family == NormalFamily.HERTZ:
         return hertzian(sep, case, across, grid, strips, result)
     if case.normal_family == NormalFamily.STRIP_HALFSPACE:
-        return strip_halfspace(sep, case, own, result)
+        return strip_halfspace(sep, case, workspace, result)
     if case.normal_family == NormalFamily.BY_APPROACH:
         return by_approach(sep, case, across, grid, strips, result)
     return analyn(sep, case, across, grid, strips, result)
@@ -79,11 +79,11 @@ def _limited_load(strips, n, limit):
 
 
 @kernel
-def _find_elastic_load(load, n, sep, case, own, result):
+def _find_elastic_load(load, n, sep, case, workspace, result):
     """Find the elastic load of `case` whose limited pressure carries `load` by a bracketed secant; return the strip count."""
     limit = case.pressure_limit
     before, previous, low, high = 0.0, 0.0, 0.0, math.inf
-    now, carried = load, _limited_load(own.strips, n, limit)
+    now, carried = load, _limited_load(workspace.strips, n, limit)
     for _ in range(_MAX_ITERATIONS):
         if abs(carried - load) <= _TOLERANCE * load or (high < math.inf and high - low <= 1e-14 * high):
             return n
@@ -96,40 +96,40 @@ def _find_elastic_load(load, n, sep, case, own, result):
             new = 0.5 * (low + high) if high < math.inf else 2.0 * now
         before, previous, now = now, carried, min(new, 4.0 * now)
         case.amount = now
-        n = _elastic(sep, case, own, result)
-        carried = _limited_load(own.strips, n, limit)
+        n = _elastic(sep, case, workspace, result)
+        carried = _limited_load(workspace.strips, n, limit)
     if result.status == Status.OK:
         result.status = Status.NOT_CONVERGED
     return n
 
 
 @kernel
-def press(sep, case, own, result):
+def press(sep, case, workspace, result):
     """Solve the normal problem; return the strip count.
 
     The strips hold the elastic pressure, `result` the limited one. Where the limit is reached, `result.N` is the load that
     was asked for or, at a given approach, the load of the limited pressure.
     """
-    n = _elastic(sep, case, own, result)
-    strips, limit, top = own.strips, case.pressure_limit, 0.0
+    n = _elastic(sep, case, workspace, result)
+    strips, limit, top = workspace.strips, case.pressure_limit, 0.0
     for i in range(n):
         top = max(top, strips[Strip.P0, i])
     if not 0.0 < limit < top:
         return n
-    own.space.case[0] = case
-    trial = own.space.case[0]  # the elastic problem whose limited pressure is the solution
+    workspace.space.case[0] = case
+    trial = workspace.space.case[0]  # the elastic problem whose limited pressure is the solution
     by_load = case.load_kind == LoadKind.LOAD
     if by_load:
-        n = _find_elastic_load(case.amount, n, sep, trial, own, result)
+        n = _find_elastic_load(case.amount, n, sep, trial, workspace, result)
     elastic_N, approach, status = trial.amount, result.approach, result.status
     carried = _limited_load(strips, n, limit)
     # the slope of the limited load, from a step in the approach; then back
     coarse = case.normal_family == NormalFamily.STRIP_HALFSPACE
     step = (_COARSE_DIFFERENCE if coarse else _DIFFERENCE) * (approach - result.touch)
     trial.load_kind, trial.amount = LoadKind.APPROACH, approach + step
-    further = _limited_load(strips, _elastic(sep, trial, own, result), limit)
+    further = _limited_load(strips, _elastic(sep, trial, workspace, result), limit)
     trial.load_kind, trial.amount = case.load_kind, elastic_N
-    n = _elastic(sep, trial, own, result)
+    n = _elastic(sep, trial, workspace, result)
     result.status = max(status, result.status)
     result.stiffness = max(further - carried, 0.0) / step
     result.N = case.amount if by_load else carried

@@ -20,15 +20,15 @@ def find_pressures(problem, delta, n_panels):
 
     `delta` is the approach so far, which bounds the half lengths.
     """
-    own, panels = problem.own, problem.panels
-    n = own.rule.across.nodes.size
-    lay_panels(problem.sep, problem.touch, problem.skew, panels, n_panels, own)
+    workspace, panels = problem.workspace, problem.panels
+    n = workspace.rule.across.nodes.size
+    lay_panels(problem.sep, problem.touch, problem.skew, panels, n_panels, workspace)
     if problem.skew > 0.0:
-        place_middles(own.space.vectors, n, n_panels, delta)
-    distances(panels, n_panels, own)
-    half_lengths(own.space.vectors, n, n_panels, delta)
-    assemble(panels, n_panels, own, problem.skew > 0.0, problem.unit)
-    return solve_active(n, n_panels, own.space, problem.by_load, problem.amount)
+        place_middles(workspace.space.vectors, n, n_panels, delta)
+    distances(panels, n_panels, workspace)
+    half_lengths(workspace.space.vectors, n, n_panels, delta)
+    assemble(panels, n_panels, workspace, problem.skew > 0.0, problem.unit)
+    return solve_active(n, n_panels, workspace.space, problem.by_load, problem.amount)
 
 
 @kernel

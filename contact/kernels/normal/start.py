@@ -1,4 +1,4 @@
-"""Start of the strip half space from the last call: panels, half lengths and offsets that it left in `own.space.memory`."""
+"""Start of the strip half space from the last call: panels, half lengths and offsets that it left in the workspace's memory."""
 
 from contact.core import kernel
 from contact.kernels.records import MAX_PATCHES
@@ -26,13 +26,13 @@ def face(image, memory):
 
 
 @kernel
-def recall(sep, n, low, high, own):
+def recall(sep, n, low, high, workspace):
     """Fill half lengths, offsets and active set from the memory. Return the ends of the panels, a view of it, and their number.
 
     The number is 0 if the memory is empty or belongs to another position. `low` and `high` are the outer ends of ANALYN's
     patches; the panels move with them.
     """
-    y, memory, vectors = sep.y, own.space.memory, own.space.vectors
+    y, memory, vectors = sep.y, workspace.space.memory, workspace.space.vectors
     panels = memory[MEM_ENDS : MEM_ENDS + 2 * MAX_PATCHES]
     n_panels = int(memory[MEM_PANELS])
     shift = 0.5 * (low + high - memory[MEM_START] - memory[MEM_START + 1]) if n_panels > 0 else 0.0
@@ -49,12 +49,12 @@ def recall(sep, n, low, high, own):
 
 
 @kernel
-def remember(n_panels, n, low, high, skewed, own):
+def remember(n_panels, n, low, high, skewed, workspace):
     """Keep half lengths of the panels, whose ends are in the memory already, for the next call. 0 panels empty the memory.
 
     Offsets are kept if strips are `skewed`, and are 0 otherwise.
     """
-    memory, vectors = own.space.memory, own.space.vectors
+    memory, vectors = workspace.space.memory, workspace.space.vectors
     memory[MEM_PANELS], memory[MEM_START], memory[MEM_START + 1] = n_panels, low, high
     for i in range(n_panels * n):
         memory[MEM_LN_A + 2 * i] = vectors[Vector.LN_A, i]

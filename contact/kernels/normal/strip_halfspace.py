@@ -41,12 +41,17 @@ AT_END = 0.01
 
 
 @kernel
-def write_strips(sep, n_panels, panels, skewed, own, result):
-    """Fill `own.strips` with the loaded strips in ascending order of y. Return their number.
+def write_strips(sep, n_panels, panels, skewed, workspace, result):
+    """Fill `workspace.strips` with the loaded strips in ascending order of y. Return their number.
 
     Runs of neighbours are the patches.
     """
-    cosines, vectors, work, strips = own.rule.cosines, own.space.vectors, own.space.grid, own.strips
+    cosines, vectors, work, strips = (
+        workspace.rule.cosines,
+        workspace.space.vectors,
+        workspace.space.grid,
+        workspace.strips,
+    )
     y, n, size = sep.y, cosines.size - 1, sep.y.size
     count, patch = 0, -1
     done = -math.inf
@@ -134,10 +139,10 @@ def _level_spurs(n, n_panels, vectors):
 @kernel
 def _report(problem, delta, n_panels):
     """Write the strips and their resultants, where ANALYN's still are. Return the number of strips."""
-    own, strips, result, sep = problem.own, problem.own.strips, problem.result, problem.sep
+    workspace, strips, result, sep = problem.workspace, problem.workspace.strips, problem.result, problem.sep
     if problem.by_load and delta > 0.0:  # local aspect ratios at this approach, which is not ANALYN's
-        prepare(sep.y, sep.g, sep.A, sep.y.size, problem.touch, delta, own.space.grid)
-    count = write_strips(sep, n_panels, problem.panels, problem.skew > 0.0, own, result)
+        prepare(sep.y, sep.g, sep.A, sep.y.size, problem.touch, delta, workspace.space.grid)
+    count = write_strips(sep, n_panels, problem.panels, problem.skew > 0.0, workspace, result)
     if problem.skew > 0.0:
         turn_aspects(count, problem.skew, strips)
     N = 0.0
@@ -155,22 +160,22 @@ def _report(problem, delta, n_panels):
 
 
 @kernel
-def _solve(sep, case, own, result):
+def _solve(sep, case, workspace, result):
     """Solve the normal problem in the given orientation."""
-    space, strips, memory = own.space, own.strips, own.space.memory
-    n_strips = analyn(sep, case, own.rule.across, space.grid, strips, result)
+    space, strips, memory = workspace.space, workspace.strips, workspace.space.memory
+    n_strips = analyn(sep, case, workspace.rule.across, space.grid, strips, result)
     if n_strips == 0:
         forget(memory)
         return 0
-    n = own.rule.across.nodes.size
+    n = workspace.rule.across.nodes.size
     modulus = case.G / (1.0 - case.nu)
     by_load = case.load_kind != LoadKind.APPROACH
     amount = case.amount if by_load else case.amount - result.touch
     tolerance = case.tolerance if case.tolerance > 0.0 else TOLERANCE
     skew, unit = _skew(n_strips, strips), 1.0 / (math.pi * modulus)
     start_low, start_high = result.edges[0], result.edges[2 * int(strips[Strip.PATCH, n_strips - 1]) + 1]
-    panels, n_panels = recall(sep, n, start_low, start_high, own)
-    problem = Problem(sep, own, result, n_strips, panels, result.touch, skew, unit, by_load, amount, tolerance)
+    panels, n_panels = recall(sep, n, start_low, start_high, workspace)
+    problem = Problem(sep, workspace, result, n_strips, panels, result.touch, skew, unit, by_load, amount, tolerance)
     state = space.iteration[0]
     begin(problem, n_panels, case.max_iterations, state)
     for number in range(case.max_iterations):
@@ -191,10 +196,10 @@ def _solve(sep, case, own, result):
             result.status = Status.NOT_CONVERGED
         forget(memory)
         return n_strips
-    remember(n_panels if state.number - state.begun < FREEZE else 0, n, start_low, start_high, skew > 0.0, own)
+    remember(n_panels if state.number - state.begun < FREEZE else 0, n, start_low, start_high, skew > 0.0, workspace)
     spur = _level_spurs(n, n_panels, space.vectors)
     count = _report(problem, state.approach, n_panels)
-    result.pmax = peak_between_strips(sep, count, unit, own)
+    result.pmax = peak_between_strips(sep, count, unit, workspace)
     acceptable = CLOSE * math.sqrt(tolerance) if skew > 0.0 else ACCEPTABLE
     alone = skew >= 1.0 and stands_alone(n * n_panels, space.vectors)
     rough = spur or state.error > max(acceptable, ACCEPTABLE) * state.load
@@ -209,16 +214,16 @@ def _solve(sep, case, own, result):
 
 
 @kernel
-def strip_halfspace(sep, case, own, result):
+def strip_halfspace(sep, case, workspace, result):
     """Solve the normal problem. Results are those of `analyn`, which gives the start and the local aspect ratios.
 
     If `space.memory` is filled, it is the start instead of ANALYN's patch. It is left filled for the next call if the
     ends came to rest. With the status NOT_CONVERGED the result is the best iterate if its changes were small, and
     ANALYN's solution otherwise. Mirror images have mirrored answers (`orientation`).
     """
-    image, space = is_image(sep.g), own.space
+    image, space = is_image(sep.g), workspace.space
     face(image, space.memory)
-    n = _solve(turn_samples(sep, image, space.turned), case, own, result)
+    n = _solve(turn_samples(sep, image, space.turned), case, workspace, result)
     if image:
-        turn_back(n, own.strips, result.edges)
+        turn_back(n, workspace.strips, result.edges)
     return n

@@ -15,15 +15,15 @@ _OVERLAP = (1e-6, 1e-5, 1e-4)
 
 
 @kernel
-def _fill_off_line(first, n, half, own, unit):
+def _fill_off_line(first, n, half, workspace, unit):
     """Fill the influence of a panel's strips on each other where they lie off each other's centre.
 
     The panel begins at strip `first` and has the half width `half`. Strips in line are filled only if there is no table
     of columns.
     """
-    cosine_logs, vectors, matrix = own.rule.cosine_logs, own.space.vectors, own.space.matrix
-    centre, plane = own.tables.centre, own.tables.plane
-    tabulated = own.rule.columns.shape[1] == n
+    cosine_logs, vectors, matrix = workspace.rule.cosine_logs, workspace.space.vectors, workspace.space.matrix
+    centre, plane = workspace.tables.centre, workspace.tables.plane
+    tabulated = workspace.rule.columns.shape[1] == n
     loci, ln_half = vectors[Vector.XC, first : first + n], math.log(half)
     for k in range(n):
         a, row = vectors[Vector.A, first + k], matrix[first + k, first : first + n]
@@ -45,13 +45,13 @@ def _fill_off_line(first, n, half, own, unit):
 
 
 @kernel
-def assemble(panels, n_panels, own, skewed, unit):
-    """Fill `own.space.matrix[j, i]` with the displacement on the centre line of strip i by unit peak pressure on strip j.
+def assemble(panels, n_panels, workspace, skewed, unit):
+    """Fill `workspace.space.matrix[j, i]` with the displacement on the centre line of strip i by unit peak pressure on strip j.
 
     `unit` is 1/(pi E*). `skewed` says whether strips lie off each other's centre.
     """
-    columns, vectors, matrix = own.rule.columns, own.space.vectors, own.space.matrix
-    n = own.rule.cosines.size - 1
+    columns, vectors, matrix = workspace.rule.columns, workspace.space.vectors, workspace.space.matrix
+    n = workspace.rule.cosines.size - 1
     tabulated = columns.shape[1] == n
     for p in range(n_panels):
         first, half = p * n, 0.5 * (panels[2 * p + 1] - panels[2 * p])
@@ -60,9 +60,9 @@ def assemble(panels, n_panels, own, skewed, unit):
             ln_a, scale = vectors[Vector.LN_LENGTH, first + k] - ln_half, vectors[Vector.A, first + k] * unit
             column(columns, k, ln_a, scale, matrix[first + k, first : first + n])
         if skewed or not tabulated:
-            _fill_off_line(first, n, half, own, unit)
+            _fill_off_line(first, n, half, workspace, unit)
     if n_panels > 1:
-        assemble_others(n_panels, own, unit)
+        assemble_others(n_panels, workspace, unit)
 
 
 @kernel
@@ -100,9 +100,9 @@ def _add_panel(first, n, logs, ln_unit, skewed, vectors, plane):
 
 
 @kernel
-def edge_displacements(panels, n_panels, own, skewed, unit):
+def edge_displacements(panels, n_panels, workspace, skewed, unit):
     """Fill Vector.U with the displacement at the ends of every loaded strip between the end strips of its panel [m]."""
-    cosine_logs, vectors, plane = own.rule.cosine_logs, own.space.vectors, own.tables.plane
+    cosine_logs, vectors, plane = workspace.rule.cosine_logs, workspace.space.vectors, workspace.tables.plane
     n = cosine_logs.shape[0]
     for j in range(n * n_panels):
         vectors[Vector.Q2, j] = 1.0 / vectors[Vector.A, j]
@@ -112,7 +112,7 @@ def edge_displacements(panels, n_panels, own, skewed, unit):
         ln_half = math.log(0.5 * (panels[2 * p + 1] - panels[2 * p]))
         _add_panel(p * n, n, cosine_logs, ln_half, skewed, vectors, plane)
         if n_panels > 1:
-            add_others(p, n_panels, own, skewed)
+            add_others(p, n_panels, workspace, skewed)
 
 
 @kernel

@@ -130,10 +130,10 @@ def _edge(plane, X, of, near, far, inside):
 
 
 @kernel
-def _fits(n, own, status):
+def _fits(n, workspace, status):
     """Return whether the last solution is of the kind that has a tangent."""
-    vectors, memory = own.space.vectors, own.space.memory
-    if own.space.tangent.shape[1] != n or own.rule.columns.shape[1] != n or memory[MEM_PANELS] != 1.0:
+    vectors, memory = workspace.space.vectors, workspace.space.memory
+    if workspace.space.tangent.shape[1] != n or workspace.rule.columns.shape[1] != n or memory[MEM_PANELS] != 1.0:
         return False
     if status != Status.OK and status != Status.SATURATED:
         return False
@@ -151,11 +151,11 @@ def _fits(n, own, status):
 
 
 @kernel
-def loaded_strips(own):
+def loaded_strips(workspace):
     """Return the number of strips that the last solution, of a single panel, has written."""
     count = 0
-    for i in range(own.rule.cosines.size - 1):
-        count += 1 if own.space.vectors[Vector.P, i] > 0.0 else 0
+    for i in range(workspace.rule.cosines.size - 1):
+        count += 1 if workspace.space.vectors[Vector.P, i] > 0.0 else 0
     return count
 
 
@@ -195,17 +195,27 @@ def _end_slope(tangent, end, n, p):
 
 
 @entry
-def linearise(sep: Samples, case: Case, own: Workspace, result: Result) -> bool:
-    """Fill `own.space.tangent` for the solution that `press_case` has just found. Return whether it has a tangent.
+def linearise(sep: Samples, case: Case, workspace: Workspace, result: Result) -> bool:
+    """Fill `workspace.space.tangent` for the solution that `press_case` has just found. Return whether it has a tangent.
 
     `sep` is its separation. If it has none, `tangent` says so to `follow`.
     """
-    tangent, vectors, memory, matrix = own.space.tangent, own.space.vectors, own.space.memory, own.space.matrix
-    cosines, logs, columns, plane = own.rule.cosines, own.rule.cosine_logs, own.rule.columns, own.tables.plane
+    tangent, vectors, memory, matrix = (
+        workspace.space.tangent,
+        workspace.space.vectors,
+        workspace.space.memory,
+        workspace.space.matrix,
+    )
+    cosines, logs, columns, plane = (
+        workspace.rule.cosines,
+        workspace.rule.cosine_logs,
+        workspace.rule.columns,
+        workspace.tables.plane,
+    )
     n = cosines.size - 1
-    if not _fits(n, own, result.status):
+    if not _fits(n, workspace, result.status):
         return False
-    turned, work = own.space.turned, own.space.grid
+    turned, work = workspace.space.turned, workspace.space.grid
     image = memory[MEM_IMAGE] > 0.0
     samples = turn_samples(sep, image, turned)
     cubic.slopes(samples.y, samples.g, samples.y.size, work[Sample.GAP_SLOPE])
@@ -220,14 +230,14 @@ def linearise(sep: Samples, case: Case, own: Workspace, result: Result) -> bool:
     )
     one, other, numbers = tangent[tail + Tangent.ONE], tangent[tail + Tangent.OTHER], tangent[tail + Tangent.NUMBERS]
     ln_a, by_width, narrowed = vectors[Vector.STEP, :n], vectors[Vector.R_OLD, :n], vectors[Vector.U, :n]
-    changes = own.space.lu
+    changes = workspace.space.lu
     low, high = memory[MEM_ENDS], memory[MEM_ENDS + 1]
     delta = result.approach - result.touch
     unit = 1.0 / (math.pi * (case.G / (1.0 - case.nu)))
     ln_half = math.log(0.5 * (high - low))
-    panels = own.space.iterates[own.space.iterates.shape[0] - 1]
+    panels = workspace.space.iterates[workspace.space.iterates.shape[0] - 1]
     panels[0], panels[1] = low, high
-    lay_panels(samples, result.touch, 0.0, panels, 1, own)
+    lay_panels(samples, result.touch, 0.0, panels, 1, workspace)
     for i in range(n):
         gap[i], curvature[i] = vectors[Vector.GAP, i], vectors[Vector.CURVATURE, i]
         a[i], ln_a[i] = vectors[Vector.A, i], math.log(vectors[Vector.A, i])
@@ -280,7 +290,7 @@ def linearise(sep: Samples, case: Case, own: Workspace, result: Result) -> bool:
             low + (_END_STEP * width if end == 0 else 0.0),
             high + (_END_STEP * width if end == 1 else 0.0),
         )
-        lay_panels(samples, result.touch, 0.0, panels, 1, own)
+        lay_panels(samples, result.touch, 0.0, panels, 1, workspace)
         wider = -1.0 if end == 0 else 1.0
         for i in range(n):
             one[i] = -(vectors[Vector.GAP, i] - gap[i]) / _END_STEP - wider * narrowed[i]
@@ -311,13 +321,13 @@ def linearise(sep: Samples, case: Case, own: Workspace, result: Result) -> bool:
 
 
 @entry
-def follow(sep: Samples, amount: float, own: Workspace, result: Result) -> int:
+def follow(sep: Samples, amount: float, workspace: Workspace, result: Result) -> int:
     """Fill strips and result for a neighbouring separation at the approach `amount`. Return the number of strips.
 
-    `own.space.tangent` is that of `linearise`. `result` needs no more than what the tangential problem reads.
+    `workspace.space.tangent` is that of `linearise`. `result` needs no more than what the tangential problem reads.
     """
-    tangent, vectors = own.space.tangent, own.space.vectors
-    n = own.rule.cosines.size - 1
+    tangent, vectors = workspace.space.tangent, workspace.space.vectors
+    n = workspace.rule.cosines.size - 1
     tail = tangent.shape[0] - len(Tangent)
     inverse, edges, by_x, conditions = tangent[:n], tangent[n : 2 * n], tangent[2 * n : 3 * n], tangent[3 * n : 4 * n]
     one, other, numbers = tangent[tail + Tangent.ONE], tangent[tail + Tangent.OTHER], tangent[tail + Tangent.NUMBERS]
@@ -327,14 +337,14 @@ def follow(sep: Samples, amount: float, own: Workspace, result: Result) -> int:
         tangent[tail + Tangent.OVERLAP],
     )
     low, high, delta = numbers[0], numbers[1], numbers[2]
-    samples, work = turn_samples(sep, numbers[4] > 0.0, own.space.turned), own.space.grid
+    samples, work = turn_samples(sep, numbers[4] > 0.0, workspace.space.turned), workspace.space.grid
     y, g, size = samples.y, samples.g, samples.y.size
     cubic.slopes(y, g, size, work[Sample.GAP_SLOPE])
     _, touch = least_point(y, g, work[Sample.GAP_SLOPE], size)
     prepare(y, g, samples.A, size, touch, amount - touch, work)
-    panels = own.space.iterates[own.space.iterates.shape[0] - 1]
+    panels = workspace.space.iterates[workspace.space.iterates.shape[0] - 1]
     panels[0], panels[1] = low, high
-    lay_panels(samples, touch, 0.0, panels, 1, own)
+    lay_panels(samples, touch, 0.0, panels, 1, workspace)
     deeper = amount - touch - delta
     for i in range(n):
         one[i] = deeper - (vectors[Vector.GAP, i] - gap[i])
@@ -350,7 +360,7 @@ def follow(sep: Samples, amount: float, own: Workspace, result: Result) -> int:
     _times(conditions, n, one, steps)
     width = high - low
     panels[0], panels[1] = low + width * steps[0], high + width * steps[n - 1]
-    lay_panels(samples, touch, 0.0, panels, 1, own)
+    lay_panels(samples, touch, 0.0, panels, 1, workspace)
     for i in range(n):
         p, k = tangent[tail + Tangent.P, i] + other[i], min(max(i, 1), n - 2)
         for s in range(n):
@@ -358,8 +368,8 @@ def follow(sep: Samples, amount: float, own: Workspace, result: Result) -> int:
         vectors[Vector.P, i] = max(p, 0.0) * numbers[3]
         a = tangent[tail + Tangent.A, k] * math.exp(steps[k])
         vectors[Vector.A, i] = a if i == k else END_LENGTH * a
-    count = write_strips(samples, 1, panels, False, own, result)
-    strips, N, area = own.strips, 0.0, 0.0
+    count = write_strips(samples, 1, panels, False, workspace, result)
+    strips, N, area = workspace.strips, 0.0, 0.0
     for i in range(count):
         N += 0.5 * math.pi * strips[Strip.P0, i] * strips[Strip.A, i] * strips[Strip.DY, i]
         area += 2.0 * strips[Strip.A, i] * strips[Strip.DY, i]

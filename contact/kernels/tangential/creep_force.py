@@ -50,9 +50,9 @@ def of_ellipse(case, creepage, a, b, limit, tables):
 
 
 @kernel
-def creep_force(part, case, own, result):
+def creep_force(part, case, workspace, result):
     """Add forces, power and slip area of one patch to `result`. Set traction and slip of its fields to zero."""
-    strips, fields, first, last = own.strips, own.fields, part.first, part.last
+    strips, fields, first, last = workspace.strips, workspace.fields, part.first, part.last
     fields[Field.QX : Field.STICK + 1, first : min(last, fields.shape[1]), :] = 0.0
     load, load_y, load_x, bound = 0.0, 0.0, 0.0, 0.0
     for i in range(first, last):
@@ -69,7 +69,7 @@ def creep_force(part, case, own, result):
     limit = case.mu * bound
     if limit <= NO_FRICTION * case.G * a * b:
         limit = 0.0
-    Fx, Fy, Mz, slip = of_ellipse(case, (vx, vy, phi), a, b, limit, own.tables)
+    Fx, Fy, Mz, slip = of_ellipse(case, (vx, vy, phi), a, b, limit, workspace.tables)
     result.Fx += Fx
     result.Fy += Fy
     result.Mz += Mz + x * Fy - y * Fx

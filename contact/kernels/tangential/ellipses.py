@@ -55,15 +55,15 @@ def place_in_load(strips, n, first, last):
 
 
 @kernel
-def stiffness_of(part, case, limit, own):
+def stiffness_of(part, case, limit, workspace):
     """Return the shear modulus of a case times the factor on the creep stiffness, for one patch [Pa].
 
     `limit` is the largest force that friction allows on the patch [N].
     """
     if case.slope == 1.0 and case.slope_far == 1.0:
         return case.G
-    a, b = equivalent_ellipse(own.strips, part.first, part.last)
-    c11 = kalker.coefficients(own.tables.kalker, math.log(a / b))[0] if b > 0.0 else 0.0
+    a, b = equivalent_ellipse(workspace.strips, part.first, part.last)
+    c11 = kalker.coefficients(workspace.tables.kalker, math.log(a / b))[0] if b > 0.0 else 0.0
     return case.G * slope_of_case(case, (part.x, part.y), a, b, c11, limit)
 
 

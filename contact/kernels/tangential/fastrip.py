@@ -85,9 +85,9 @@ _AT_BOUND = 1.0 - 1e-9
 
 
 @kernel
-def _set_block(part, block, case, c_patch, own):
+def _set_block(part, block, case, c_patch, workspace):
     """Fill `lanes` for the strips from `block` on: amended strip theory (theory.md 4.1) and the input of their march."""
-    strips, lanes, table = own.strips, own.space.lanes, own.tables.kalker
+    strips, lanes, table = workspace.strips, workspace.space.lanes, workspace.tables.kalker
     G, nu = case.G, case.nu
     least = NO_FRICTION * G
     for l in range(LANES):
@@ -317,15 +317,15 @@ def _write(k, block, n, lanes, fields):
 
 
 @kernel
-def fastrip(part, case, own, result):
+def fastrip(part, case, workspace, result):
     """Fill the traction, slip and stick fields of one patch. Add its forces, power and slip area to `result`."""
-    strips, fields, elements, last = own.strips, own.fields, own.rule.elements, part.last
-    lanes, trace = own.space.lanes, own.space.trace
+    strips, fields, elements, last = workspace.strips, workspace.fields, workspace.rule.elements, part.last
+    lanes, trace = workspace.space.lanes, workspace.space.trace
     a0, b0 = equivalent_ellipse(strips, part.first, last)
     c_patch = math.sqrt(a0 * b0)
     Fx, Fy, Mz, power, slip_area = 0.0, 0.0, 0.0, 0.0, 0.0
     for block in range(part.first, last, LANES):
-        _set_block(part, block, case, c_patch, own)
+        _set_block(part, block, case, c_patch, workspace)
         if case.tangential == Tangential.STRIP_THEORY:
             _keep_direction(lanes, trace)
         else:

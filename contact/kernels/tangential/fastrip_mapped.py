@@ -230,32 +230,32 @@ def slip_factor(power, work):
 
 
 @kernel
-def _march_under(block, last, case, factor, of_patch, own):
+def _march_under(block, last, case, factor, of_patch, workspace):
     """March along a block of strips under friction that varies along them."""
-    lanes, trace, elements = own.space.lanes, own.space.trace, own.rule.elements
-    set_block(own.strips, block, last, case, own.tables.kalker, of_patch, lanes)
+    lanes, trace, elements = workspace.space.lanes, workspace.space.trace, workspace.rule.elements
+    set_block(workspace.strips, block, last, case, workspace.tables.kalker, of_patch, lanes)
     march(Uneven(1), elements, lanes, trace)
-    begin_varying(own.strips, block, last, case, lanes[Lane.BOUND : Lane.BOUND + LANES], lanes)
+    begin_varying(workspace.strips, block, last, case, lanes[Lane.BOUND : Lane.BOUND + LANES], lanes)
     let_fall(case, factor, elements, lanes, trace)
 
 
 @entry
-def roll_patch(first: int, last: int, case: Case, of_patch: OfPatch, own: Workspace, result: Result) -> None:
+def roll_patch(first: int, last: int, case: Case, of_patch: OfPatch, workspace: Workspace, result: Result) -> None:
     """Add forces, power and slip area of the strips of a patch to `result`. Fill their fields if there is room.
 
     `of_patch` is that of `set_shapes`. In steady rolling the slip dissipates the work of the forces. The march's slip follows
     the given creepages, its forces the effective ones, so the slip velocities of the patch are scaled to that work. Friction
     that varies along the strips takes three marches: for this factor, for its effect on the stick zones, and with that.
     """
-    strips, fields, elements = own.strips, own.fields, own.rule.elements
-    lanes, trace = own.space.lanes, own.space.trace
+    strips, fields, elements = workspace.strips, workspace.fields, workspace.rule.elements
+    lanes, trace = workspace.space.lanes, workspace.space.trace
     rest = 1.0 + elements[Element.S, -1]  # from the middle of the last element to the trailing edge
     falling = varies(case)
     shown = falling or fields.shape[1] >= last
     factor, power, work = 1.0, 0.0, 0.0
     if falling:  # friction follows from the scaled slip, so its factor is needed first
         for block in range(first, last, LANES):
-            set_block(strips, block, last, case, own.tables.kalker, of_patch, lanes)
+            set_block(strips, block, last, case, workspace.tables.kalker, of_patch, lanes)
             march(Uneven(1), elements, lanes, trace)
             add_zone(elements, lanes)
             for l in range(min(LANES, last - block)):
@@ -264,14 +264,14 @@ def roll_patch(first: int, last: int, case: Case, of_patch: OfPatch, own: Worksp
         factor = slip_factor(power, work)
         power, work = 0.0, 0.0
         for block in range(first, last, LANES):
-            _march_under(block, last, case, factor, of_patch, own)
+            _march_under(block, last, case, factor, of_patch, workspace)
             set_loss(strips, block, last, case, lanes)
     for block in range(first, last, LANES):
         if falling:
-            _march_under(block, last, case, factor, of_patch, own)
+            _march_under(block, last, case, factor, of_patch, workspace)
             sum_up(elements, lanes, trace)
         else:
-            set_block(strips, block, last, case, own.tables.kalker, of_patch, lanes)
+            set_block(strips, block, last, case, workspace.tables.kalker, of_patch, lanes)
             march(Uneven(1 if shown else 0), elements, lanes, trace)
             add_zone(elements, lanes)
         for l in range(min(LANES, last - block)):
@@ -298,17 +298,17 @@ def roll_patch(first: int, last: int, case: Case, of_patch: OfPatch, own: Worksp
 
 
 @entry
-def set_shapes(first: int, last: int, own: Workspace) -> OfPatch:
+def set_shapes(first: int, last: int, workspace: Workspace) -> OfPatch:
     """Set ties, aspect ratios and centres of the strips of a patch; return what `set_aspects` returns."""
-    tie_strips(own.strips, first, last)
-    of_patch = set_aspects(own.strips, first, last, own.tables.kalker)
-    set_centres(own.strips, first, last)
+    tie_strips(workspace.strips, first, last)
+    of_patch = set_aspects(workspace.strips, first, last, workspace.tables.kalker)
+    set_centres(workspace.strips, first, last)
     return of_patch
 
 
 @kernel
-def fastrip_mapped(part, case, own, result):
+def fastrip_mapped(part, case, workspace, result):
     """Fill the traction, slip and stick fields of one patch. Add its forces, power and slip area to `result`."""
-    of_patch = set_shapes(part.first, part.last, own)
-    set_effective(own.strips, part.first, part.last, case, of_patch, own.tables)
-    roll_patch(part.first, part.last, case, of_patch, own, result)
+    of_patch = set_shapes(part.first, part.last, workspace)
+    set_effective(workspace.strips, part.first, part.last, case, of_patch, workspace.tables)
+    roll_patch(part.first, part.last, case, of_patch, workspace, result)

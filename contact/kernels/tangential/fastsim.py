@@ -93,10 +93,15 @@ def _fill_friction(case, elliptic, elements, lanes, trace):
 
 
 @kernel
-def fastsim(part, case, own, result):
+def fastsim(part, case, workspace, result):
     """Fill the traction, slip and stick fields of one patch. Add its forces, power and slip area to `result`."""
-    strips, fields, elements, table = own.strips, own.fields, own.rule.elements, own.tables.kalker
-    lanes, trace = own.space.lanes, own.space.trace
+    strips, fields, elements, table = (
+        workspace.strips,
+        workspace.fields,
+        workspace.rule.elements,
+        workspace.tables.kalker,
+    )
+    lanes, trace = workspace.space.lanes, workspace.space.trace
     method, G = case.tangential, case.G
     Fx, Fy, Mz, power, slip_area = 0.0, 0.0, 0.0, 0.0, 0.0
     elliptic = method == Tangential.FASTSIM_ELLIPTIC

@@ -90,7 +90,7 @@ _AT = places(_TABLE)
 class Arrays(NamedTuple):
     """All arrays in the working memory of an instance."""
 
-    own: Workspace
+    workspace: Workspace
     samples: Samples
     case: Any  # and a scratch one
     result: Any  # and a scratch one
@@ -107,7 +107,7 @@ class Arrays(NamedTuple):
 @arranging
 def _lay(work, size, kept, data):
     """Lay out all arrays in `work`. Return them, the indices of `shown` and `derived`, and the total size in numbers."""
-    own, _, end = lay_out(work, kept.size, kept, size, data)
+    workspace, _, end = lay_out(work, kept.size, kept, size, data)
     n, capacity = size.n_samples, MAX_PATCHES * size.n_strips
     y, end = block.vector(work, end, n)
     g, end = block.vector(work, end, n)
@@ -125,7 +125,7 @@ def _lay(work, size, kept, data):
     derived, at_shown = block.matrix(work, end, ROWS, COLUMNS + 1)
     shown, total = block.matrix(work, at_shown, capacity, size.n_elements)
     samples = Samples(y, g, A, x_c, tilt)
-    a = Arrays(own, samples, case, result, parameters, damage_fields, damage, count, shown, row, slopes, derived)
+    a = Arrays(workspace, samples, case, result, parameters, damage_fields, damage, count, shown, row, slopes, derived)
     return a, (at_shown, end), total
 
 
@@ -217,17 +217,17 @@ def _difference(v, at, reference):
 @arranging
 def _solve(n, a):
     """Solve the case of `a` with its first `n` samples."""
-    forget_forged(a.own.space.memory)
-    a.count[0] = solve_case(_first(a.samples, n), a.case, a.own, a.result)
+    forget_forged(a.workspace.space.memory)
+    a.count[0] = solve_case(_first(a.samples, n), a.case, a.workspace, a.result)
 
 
 @arranging
 def _for_forces(a):
     """Return the workspace without room for fields, which would take most of the time, unless the forces need them."""
-    own, case = a.own, a.case[0]
+    workspace, case = a.workspace, a.case[0]
     if case.conformal != 0 or case.pressure_limit > 0.0:
-        return own
-    return Workspace(own.rule, own.tables, own.space, own.strips, a.row)
+        return workspace
+    return Workspace(workspace.rule, workspace.tables, workspace.space, workspace.strips, a.row)
 
 
 def entries() -> dict[str, Callable[..., Any]]:
@@ -256,7 +256,7 @@ def entries() -> dict[str, Callable[..., Any]]:
         v, rows = _values(values, given)
         at = rows[0]
         a, _, _ = arrange(v, at, work, given)
-        fill(a.own, v[at.material_poisson_ratio], given.data)
+        fill(a.workspace, v[at.material_poisson_ratio], given.data)
         a.damage_parameters[0] = _DAMAGE_PARAMETERS[0]
         return 0
 
@@ -266,9 +266,11 @@ def entries() -> dict[str, Callable[..., Any]]:
         a, _, _ = arrange(v, at, work, given)
         _solve(_pose(v, rows, a), a)
         _read_damage(v, rows, a.damage_parameters)
-        own, parameters, n = a.own, a.damage_parameters[0], int(a.count[0])
+        workspace, parameters, n = a.workspace, a.damage_parameters[0], int(a.count[0])
         parameters.speed = v[at.speed]
-        damage_kernel(own.strips, n, own.fields, a.case[0], a.result[0], parameters, a.damage_fields, a.damage[0])
+        damage_kernel(
+            workspace.strips, n, workspace.fields, a.case[0], a.result[0], parameters, a.damage_fields, a.damage[0]
+        )
         _report(v, rows, a)
         return a.result[0].status
 
@@ -314,7 +316,9 @@ def entries() -> dict[str, Callable[..., Any]]:
         a, (begin, _), _ = arrange(v, places[0], work, given)
         for i in range(a.shown.shape[0]):
             for j in range(a.shown.shape[1]):
-                a.shown[i, j] = _element(a.own.strips, a.own.fields, fields[k], i, j) if i < a.count[0] else 0.0
+                a.shown[i, j] = (
+                    _element(a.workspace.strips, a.workspace.fields, fields[k], i, j) if i < a.count[0] else 0.0
+                )
         return begin
 
     called_by_c = (

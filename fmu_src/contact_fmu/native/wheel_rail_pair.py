@@ -153,7 +153,7 @@ def entries() -> dict[str, Callable[..., Any]]:
         bench, _, _, _ = _lay(work, end, start, counts, size(v), given.data)
         start.counts[0], start.counts[1] = counts
         fill_profiles(bench)
-        fill(bench.own, v[at.material_poisson_ratio], given.data)
+        fill(bench.workspace, v[at.material_poisson_ratio], given.data)
         set_parameters(v, origin_y, origin_z, bench)
         return 0
 

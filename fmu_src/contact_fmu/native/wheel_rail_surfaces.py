@@ -81,7 +81,7 @@ def entries() -> dict[str, Callable[..., Any]]:
         if not is_sound(rail, n_rail):
             return Failure.RAIL
         bench, aside, _, _ = _lay(work, given, size(v))
-        fill(bench.own, v[at.material_poisson_ratio], given.data)
+        fill(bench.workspace, v[at.material_poisson_ratio], given.data)
         y, z = place_of(rail)
         set_parameters(v, y, z, bench)
         bench.ledger.settings[0].distance = 0.0

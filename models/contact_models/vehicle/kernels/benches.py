@@ -165,7 +165,7 @@ def bench_of(benches, w):
     )
     return Bench(
         search=search,
-        own=t.own,
+        workspace=t.workspace,
         case=benches.cases[w : w + 1],
         patch_case=t.patch_case,
         result=t.result,

@@ -169,7 +169,7 @@ def _predict(asked, now, friction, bench, contacts, stick, power, n, row):
     """
     motion, slope = bench.search.motion[0], 0.0
     shear = bench.case[0].G * bench.case[0].slope
-    c11, c22, _, _ = kalker.coefficients(bench.own.tables.kalker, 0.0)
+    c11, c22, _, _ = kalker.coefficients(bench.workspace.tables.kalker, 0.0)
     dy, dz, droll, dyaw = now.y - asked.y, now.z - asked.z, now.roll - asked.roll, now.yaw - asked.yaw
     before, after = axle(asked.roll, asked.yaw), axle(now.roll, now.yaw)
     lx, ly, lz = after
