@@ -85,7 +85,10 @@ def _builders() -> list[str]:
 
 def libraries(root: Path) -> Path:
     """Return the folder of the libraries for all systems, kept with those of checkouts: the same sources build them once."""
-    code = f"from contact_fmu.native.systems import folder; print(folder({tuple(SYSTEMS)}))"
+    code = (
+        "import sys; sys.path[:0] = ['fmu_src', 'models']; from contact_fmu.native.systems import folder; "
+        f"print(folder({tuple(SYSTEMS)}))"
+    )
     told = subprocess.run([sys.executable, "-c", code], cwd=root, stdout=subprocess.PIPE, text=True, check=True)
     return Path(told.stdout.splitlines()[-1])
 
