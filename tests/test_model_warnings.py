@@ -115,7 +115,8 @@ def test_all_patches_of_a_pair_warn_once():
         told = model_warnings(
             lambda patches=patches: [contact.solve(p.separation, p.creepage, load=2.1e5, throw=False) for p in patches]
         )
-        assert [text.partition(" ")[0] for text in told] == ["gap_error", "the"]  # the other one is of bent patches
+        assert {text.partition(" ")[0] for text in told} == {"gap_error", "the"}  # the other one is of bent patches
+        assert len(told) == 2
     gaps = [p.separation for p in patches]
     assert len(model_warnings(lambda: [contact.forces(gaps, ROLLING, load=2.1e5) for _ in range(3)])) == 1
 
