@@ -92,7 +92,12 @@ def dialect_of(texts: Sequence[str], columns: Sequence[int] = (0, 1)) -> Dialect
     """Return the dialect in which most rows have numbers in the `columns`."""
     sample = texts if len(texts) <= 400 else [*texts[:100], *texts[100 :: max(1, len(texts) // 300)]]
 
+    whole = "\n".join(sample)
+
     def score(dialect: Dialect) -> tuple[int, int]:
+        separated = max(columns) == 0 or re.search(dialect.separator, whole)
+        if not separated or (dialect.comma and "," not in whole):  # the same without a decimal comma comes first
+            return 0, 0
         rows = [[number(cell, dialect.comma) for cell in dialect.cells(text)] for text in sample]
         good = [
             row
@@ -101,8 +106,10 @@ def dialect_of(texts: Sequence[str], columns: Sequence[int] = (0, 1)) -> Dialect
         ]
         return len(good), sum(all(value is not None for value in row) for row in good)
 
-    best = max(_DIALECTS, key=score)  # of equals the first
-    return _MIXED if score(_MIXED)[0] > 2 * score(best)[0] else best
+    scores = {dialect: score(dialect) for dialect in _DIALECTS}
+    best = max(_DIALECTS, key=scores.__getitem__)  # of equals the first
+    few = 2 * scores[best][0]
+    return _MIXED if few < len(sample) and score(_MIXED)[0] > few else best
 
 
 def without_remark(line: str, quotes: bool) -> str:
