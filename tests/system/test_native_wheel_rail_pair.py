@@ -27,14 +27,17 @@ def test_directional_derivatives_are_those_of_the_outputs(native_pair, known, h)
     """Each component of the wrench is compared with central differences of other steps.
 
     Under a load the height follows from an iteration, whose tolerance is in the quotients: up to 6e-4 was measured. The
-    columns of the pose are those of the height that the method itself finds, the outputs those of ANALYN's height.
+    columns of the pose are those of the height that the method itself finds, the outputs those of ANALYN's height. The
+    quotient of the small vertical force changes by 3 % between steps of 2e-8 and 1e-6, .002 of the largest slope.
     """
     fmu = native_pair("ModelExchange")
     fmu.update({**MOTION, "pose.yaw": 1e-3})
     fmu.initialize()
     wanted = quotient(fmu, WRENCH, {known: 1.0}, h)
-    share = 1e-2 if known.startswith("pose") else 1e-3
-    np.testing.assert_allclose(derivative(fmu, WRENCH, {known: 1.0}), wanted, rtol=share)
+    share, noise = (1e-2, 2e-3) if known.startswith("pose") else (1e-3, 0.0)
+    np.testing.assert_allclose(
+        derivative(fmu, WRENCH, {known: 1.0}), wanted, rtol=share, atol=noise * np.abs(wanted).max()
+    )
     assert wanted.all()
 
 

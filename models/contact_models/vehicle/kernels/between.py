@@ -165,9 +165,9 @@ def _predict(asked, now, friction, bench, contacts, stick, power, n, row):
 
     `now` and `asked` are the inputs of the contacts now and at the last solution, `stick` is the share of their area without
     slip, `power` that of the normal force. Return whether they have hardly moved, and the derivative of the normal force by
-    the power [N].
+    the power [N]; 0 if the motion along the surface may have changed that force as much.
     """
-    motion, slope = bench.search.motion[0], 0.0
+    motion, slope, sideways = bench.search.motion[0], 0.0, 0.0
     shear = bench.case[0].G * bench.case[0].slope
     c11, c22, _, _ = kalker.coefficients(bench.workspace.tables.kalker, 0.0)
     dy, dz, droll, dyaw = now.y - asked.y, now.z - asked.z, now.roll - asked.roll, now.yaw - asked.yaw
@@ -191,6 +191,7 @@ def _predict(asked, now, friction, bench, contacts, stick, power, n, row):
         ratio = closer**power
         if closer > 0.0:
             slope += contact.N * ratio * math.log(closer)
+        sideways += contact.N * _DEEPER * abs(aside) / _ASIDE
         before_x, before_y, before_z = _slip(asked, x, y, z)
         # the place on the wheel turns with the wheelset
         x_turned, y_turned, z_turned = x - dyaw * y, y + dyaw * x - droll * z, z + droll * y
@@ -222,7 +223,7 @@ def _predict(asked, now, friction, bench, contacts, stick, power, n, row):
         row[Load.ELASTIC] += ELASTIC * (contact.N * ratio * (contact.approach + deeper) - contact.N * contact.approach)
         row[Load.T_GAMMA] += abs(Fx * creep_x) + abs(Fy * creep_y)
         row[Load.T_GAMMA] -= abs(contact.Fx * contact.longitudinal) + abs(contact.Fy * contact.lateral)
-    return near, slope
+    return near, slope if abs(slope) > sideways else 0.0
 
 
 @kernel
