@@ -601,7 +601,7 @@ enum {
     X(SLIP, "slip", 0.45, 0.0, "a rolling wheel has less than 0.02; spin is negative when rolling forward, about -forward/radius") \
     X(WHEEL_LOAD, "wheel load", 5000000.0, 1000.0, "a wheel carries 20 to 150 kN; the unit is N") \
     X(BEND, "bend", 0.4, 0.0, "the contact angle changes by more than 23 degrees over the patch, which strips take as plane: a lateral force of the pressure of up to 0.1 of the load is left out, and creep forces change by 0.03 of friction times load in the median. A conformal surface has both, but the influence numbers of a plane: 0.02 to 0.06 of friction times load in the median (limits.md)") \
-    X(GAP_ERROR, "gap_error", 0.17, 0.0, "the pressure leaves gaps or overlaps inside the patch; above 0.17 the largest pressure is more than 5 % wrong on most patches (limits.md)") \
-    X(GAP_ERROR_INTERACTING, "gap_error interacting", 0.03, 0.0, "the pressure leaves gaps or overlaps inside the patch; above 0.03 the largest pressure is more than 5 % wrong on most patches (limits.md)")
+    X(GAP_ERROR, "gap_error", 0.17, 0.0, "the pressure leaves gaps or overlaps inside the patch; above 0.17 the largest pressure may be more than 5 % wrong (limits.md)") \
+    X(GAP_ERROR_INTERACTING, "gap_error interacting", 0.03, 0.0, "the pressure leaves gaps or overlaps inside the patch; above 0.03 the largest pressure may be more than 5 % wrong (limits.md)")
 
 #endif

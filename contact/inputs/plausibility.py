@@ -117,8 +117,8 @@ def about_bend(largest: float) -> str:
 def about_gap(limit: float) -> str:
     """Return what a `gap_error` above `limit` means."""
     return (
-        f"the pressure leaves gaps or overlaps inside the patch; above {limit:g} the largest pressure is more than 5 % wrong "
-        "on most patches (limits.md)"
+        f"the pressure leaves gaps or overlaps inside the patch; above {limit:g} the largest pressure may be more than "
+        "5 % wrong (limits.md)"
     )
 
 
@@ -149,7 +149,7 @@ def doubt_gap(gap_error: float, limit: float, told: set[str], reason: str = "gap
             told,
             reason,
             f"gap_error = {gap_error:.2g}: the pressure leaves gaps or overlaps inside the patch. Above {limit:g} the largest "
-            "pressure is more than 5 % wrong on most patches (limits.md); normal = tangential = "
+            "pressure may be more than 5 % wrong (limits.md); normal = tangential = "
             "'halfspace' solves the patch",
         )
 

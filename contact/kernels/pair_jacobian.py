@@ -46,7 +46,7 @@ _SMALL = 1e-6
 
 
 @kernel
-def _own_of(k, aside):
+def _workspace_of(k, aside):
     """Return separation and workspace of patch k. Fields are left out unless the tangential problem reads them."""
     bench = aside.bench
     sep, workspace, memory, case = bench.search.separations[k], bench.workspace, bench.memory, bench.case[0]
@@ -187,7 +187,7 @@ def _take_solved(bench, aside):
     """Take the single patch of the last solution, whose strips are still there. Return whether it has a tangent."""
     near = aside.bench
     near.search.patches[0], near.result[0] = bench.search.patches[0], bench.result[0]
-    samples, workspace = _own_of(0, aside)
+    samples, workspace = _workspace_of(0, aside)
     sep = bench.search.separations[0]
     samples = Samples(sep[Sep.Y], sep[Sep.G], sep[Sep.A], sep[Sep.XC], sep[Sep.TILT])
     fits = has_tangent(samples, bench.patch_case[0], workspace, near.result[0])
@@ -204,7 +204,7 @@ def _solve_middle(n, place, aside):
     bench = aside.bench
     approach, steepest, share = 0.0, _LEAST_SLOPE, SMALL
     for k in range(n):
-        samples, workspace = _own_of(k, aside)
+        samples, workspace = _workspace_of(k, aside)
         strips = _solve_patch(k, place, samples, workspace, aside)
         aside.patches[k] = bench.search.patches[k]
         approach = max(approach, bench.contacts[k].approach)
@@ -231,7 +231,7 @@ def _solve_neighbour(n, holds, aside):
         patch, middle = bench.search.patches[k], aside.patches[k]
         if holds:
             patch.vx, patch.vy, patch.phi = middle.vx, middle.vy, middle.phi
-        samples, workspace = _own_of(k, aside)
+        samples, workspace = _workspace_of(k, aside)
         _solve_patch(k, _NEAR if holds else _OTHER, samples, workspace, aside)
 
 
@@ -312,10 +312,10 @@ def _derive_by_velocity(j, n, aside):
         patch, moved = aside.patches[k], aside.bench.search.patches[k]
         axes = tilted(0.0, 0.0, 0.0, patch.angle, patch.pitch)[3:]
         slip(motion, axes, patch.x, patch.point_y, patch.point_z, moved)
-        workspace = 1.0 if j == Moved.VX and before > slowest else 0.0  # the creepages refer to this speed
-        creeps[k, 0, j] = (moved.vx * faster - patch.vx * speed - workspace * patch.vx) / speed
-        creeps[k, 1, j] = (moved.vy * faster - patch.vy * speed - workspace * patch.vy) / speed
-        creeps[k, 2, j] = (moved.phi * faster - patch.phi * speed - workspace * patch.phi) / speed
+        refers = 1.0 if j == Moved.VX and before > slowest else 0.0  # the creepages refer to this speed
+        creeps[k, 0, j] = (moved.vx * faster - patch.vx * speed - refers * patch.vx) / speed
+        creeps[k, 1, j] = (moved.vy * faster - patch.vy * speed - refers * patch.vy) / speed
+        creeps[k, 2, j] = (moved.phi * faster - patch.phi * speed - refers * patch.phi) / speed
         creeps[k, SPEED, j] = 1.0 if j == Moved.VX else 0.0
 
 

@@ -165,7 +165,7 @@ function numbers(found) {
   for (const [name, factor, unit] of [["longitudinal", 1e3, "‰"], ["lateral", 1e3, "‰"], ["spin", 1, "1/m"]])
     rows.push(row(`${name} creepage of patch 1`, found.map((answer, k) => [answer.failed ? "–" :
       `${(factor * solvers[k].get(`patch[].${name}`)).toFixed(3)} ${unit}`]), "", "creepages") + (name === "spin" && explained.has("creepages") ? explanation(...bundle.creepages) : ""));
-  const doubt = k => gapTooLarge(k) ? "; the gap error is large: the largest pressure is more than 5 % wrong on most such patches" : "";
+  const doubt = k => gapTooLarge(k) ? "; the gap error is large: the largest pressure may be more than 5 % wrong" : "";
   const status = row("status", found.map((answer, k) => [answer.text + (answer.failed ? "" : doubt(k)), answer.failed || answer.untrusted ? "bad" : ""]), "status");
   const text = `<table><thead><tr><th></th>${head}</tr></thead><tbody>${rows.join("")}${status}</tbody></table>`;
   if (text === shownNumbers) return;

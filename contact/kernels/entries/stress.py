@@ -58,13 +58,13 @@ def load_fill(sizes, strips, n, limit, result, nx, ny, x, y, p, qx, qy, given):
         part = PatchStrips(
             rows[Strip.Y, first:last], rows[Strip.XC, first:last], rows[Strip.A, first:last], rows[Strip.P0, first:last]
         )
-        workspace = PatchFields(
+        of_patch = PatchFields(
             fields[Field.X, first:last],
             fields[Field.P, first:last],
             fields[Field.QX, first:last],
             fields[Field.QY, first:last],
         )
-        add_load(part, workspace, record.edges[2 * k], record.edges[2 * k + 1], limit, grid)
+        add_load(part, of_patch, record.edges[2 * k], record.edges[2 * k + 1], limit, grid)
         first = last
     return 1 if scale_load(grid, record.N) else 0
 

@@ -76,18 +76,10 @@ def assemble_others(n_panels, workspace, unit):
 
     It is the displacement on the centre line of strip i by unit peak pressure on strip j. `unit` is 1/(pi E*).
     """
-    vectors, logs, matrix, at_probes = (
-        workspace.space.vectors,
-        workspace.space.logs,
-        workspace.space.matrix,
-        workspace.space.vectors[Vector.Q1],
-    )
-    probes, spread, centre, plane = (
-        workspace.rule.probes,
-        workspace.rule.spread,
-        workspace.tables.centre,
-        workspace.tables.plane,
-    )
+    vectors, logs = workspace.space.vectors, workspace.space.logs
+    matrix, at_probes = workspace.space.matrix, workspace.space.vectors[Vector.Q1]
+    probes, spread = workspace.rule.probes, workspace.rule.spread
+    centre, plane = workspace.tables.centre, workspace.tables.plane
     n = spread.shape[1]
     for q in range(n_panels):
         for j in range(q * n, q * n + n):
@@ -113,12 +105,8 @@ def add_others(p, n_panels, workspace, skewed):
     The rows Q2 and R of the vectors hold 1/a and p0·a/(pi E*). Both ends differ if strips are `skewed`. Then
     Vector.DIFFERENCE gets their difference.
     """
-    vectors, logs, spread, plane = (
-        workspace.space.vectors,
-        workspace.space.logs,
-        workspace.rule.spread,
-        workspace.tables.plane,
-    )
+    vectors, logs = workspace.space.vectors, workspace.space.logs
+    spread, plane = workspace.rule.spread, workspace.tables.plane
     n = spread.shape[1]
     U, difference = vectors[Vector.U, p * n : p * n + n], vectors[Vector.DIFFERENCE, p * n : p * n + n]
     logs_a, inverses = vectors[Vector.LN_LENGTH], vectors[Vector.Q2]

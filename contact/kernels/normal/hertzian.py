@@ -24,15 +24,15 @@ def _approach_under(load, sep, place, modulus, work, result):
     for iteration in range(_MAX_ITERATIONS):
         result.iterations = iteration
         unit = unit_load(deepest(y, sep.g, sep.A, n, place, delta, work), modulus)
-        workspace = (load / unit) ** (2.0 / 3.0)  # the approach with these curvatures
-        left = delta / workspace - 1.0
+        own = (load / unit) ** (2.0 / 3.0)  # the approach with these curvatures
+        left = delta / own - 1.0
         if abs(left) <= _TOLERANCE:
-            return workspace
+            return own
         if left < 0.0:
             low = delta
         else:
             high = delta
-        new = workspace
+        new = own
         if iteration > 0 and left != left_before:
             new = delta - left * (delta - before) / (left - left_before)
         if not low < new < high:

@@ -218,12 +218,8 @@ def _search(problem, state, least):
 
     Return whether there is any. Where a panel is added, the others take their step and need not wait for it.
     """
-    workspace, panels, vectors, before = (
-        problem.workspace,
-        problem.panels,
-        problem.workspace.space.vectors,
-        state.n_panels,
-    )
+    workspace, panels = problem.workspace, problem.panels
+    vectors, before = problem.workspace.space.vectors, state.n_panels
     state.searched = 1
     state.n_panels, found = extend_to_ghosts(
         problem.sep, problem.touch, state.approach, least, problem.unit, problem.skew, before, panels, workspace

@@ -25,11 +25,11 @@ def fill_ln_X(n: int, pairs: Matrix) -> None:
 
 
 @entry
-def displacement(plane: Matrix, forces: Numbers, pairs: Matrix, workspace: int) -> float:
+def displacement(plane: Matrix, forces: Numbers, pairs: Matrix, own: int) -> float:
     """Return the displacement by the strips with p0·a/(pi E*) = `forces` [m]; `pairs` is overwritten.
 
     Pair.X is the distance of the point along x from each strip's middle over a, Pair.LOW and Pair.HIGH the logarithms of the
-    distances to its sides over a. Sides lie on the same side of the point, except for strip `workspace`; -1 if there is none.
+    distances to its sides over a. Sides lie on the same side of the point, except for strip `own`; -1 if there is none.
     """
     n = forces.size
     along, logs, lows, highs, rows = pairs[Pair.X], pairs[Pair.LN_X], pairs[Pair.LOW], pairs[Pair.HIGH], pairs[Pair.ROW]
@@ -40,7 +40,7 @@ def displacement(plane: Matrix, forces: Numbers, pairs: Matrix, workspace: int) 
         at = min(X * PER_X_STEP, N_X - 1.000001)
         row = float(int(at))
         low, high = (low - start) * PER_T_STEP, (high - start) * PER_T_STEP
-        sign = 1.0 if m == workspace else -1.0
+        sign = 1.0 if m == own else -1.0
         beyond = max(high - (N_T - 1.0), 0.0) + sign * max(low - (N_T - 1.0), 0.0)  # there U is logarithmic
         low = min(low if low > 0.0 else 0.0, N_T - 1.000001)  # written so that NaN does not become an index
         high = min(high if high > 0.0 else 0.0, N_T - 1.000001)
@@ -62,5 +62,5 @@ def displacement(plane: Matrix, forces: Numbers, pairs: Matrix, workspace: int) 
         one += high * (plane[row, j + 1] - one)
         other += high * (plane[row + 1, j + 1] - other)
         right = one + share * (other - one) + logs[m]
-        u += forces[m] * (right + left if m == workspace else abs(right - left))
+        u += forces[m] * (right + left if m == own else abs(right - left))
     return u

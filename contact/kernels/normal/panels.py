@@ -228,14 +228,12 @@ def _summarise(n: int, n_panels: int, vectors: Matrix, unit: float) -> None:
         load, moment, along, square = 0.0, 0.0, 0.0, 0.0
         for j in range(first, first + n):
             a, h, at, locus = vectors[Vector.A, j], vectors[Vector.HALF, j], vectors[Vector.Y, j], vectors[Vector.XC, j]
-            workspace, spread = math.pi * unit * vectors[Vector.P, j] * a * h, 0.25 * a * a + h * h / 3.0
-            vectors[Vector.REACH, j], vectors[Vector.SPREAD, j] = workspace, spread
-            load, moment, square = (
-                load + workspace,
-                moment + workspace * at,
-                square + workspace * (at * at + locus * locus + spread),
-            )
-            along += workspace * locus
+            load_of_strip, spread = math.pi * unit * vectors[Vector.P, j] * a * h, 0.25 * a * a + h * h / 3.0
+            vectors[Vector.REACH, j], vectors[Vector.SPREAD, j] = load_of_strip, spread
+            load += load_of_strip
+            moment += load_of_strip * at
+            along += load_of_strip * locus
+            square += load_of_strip * (at * at + locus * locus + spread)
         middle, locus = (moment / load, along / load) if load > 0.0 else (0.0, 0.0)
         vectors[Vector.REACH_OF_PANEL, first], vectors[Vector.MIDDLE_OF_PANEL, first] = load, middle
         spread = max(square / load - middle * middle - locus * locus, 1e-300) if load > 0.0 else 1.0

@@ -46,12 +46,8 @@ def write_strips(sep, n_panels, panels, skewed, workspace, result):
 
     Runs of neighbours are the patches.
     """
-    cosines, vectors, work, strips = (
-        workspace.rule.cosines,
-        workspace.space.vectors,
-        workspace.space.grid,
-        workspace.strips,
-    )
+    cosines, vectors = workspace.rule.cosines, workspace.space.vectors
+    work, strips = workspace.space.grid, workspace.strips
     y, n, size = sep.y, cosines.size - 1, sep.y.size
     count, patch = 0, -1
     done = -math.inf

@@ -200,18 +200,10 @@ def linearise(sep: Samples, case: Case, workspace: Workspace, result: Result) ->
 
     `sep` is its separation. If it has none, `tangent` says so to `follow`.
     """
-    tangent, vectors, memory, matrix = (
-        workspace.space.tangent,
-        workspace.space.vectors,
-        workspace.space.memory,
-        workspace.space.matrix,
-    )
-    cosines, logs, columns, plane = (
-        workspace.rule.cosines,
-        workspace.rule.cosine_logs,
-        workspace.rule.columns,
-        workspace.tables.plane,
-    )
+    tangent, vectors = workspace.space.tangent, workspace.space.vectors
+    memory, matrix = workspace.space.memory, workspace.space.matrix
+    cosines, logs = workspace.rule.cosines, workspace.rule.cosine_logs
+    columns, plane = workspace.rule.columns, workspace.tables.plane
     n = cosines.size - 1
     if not _fits(n, workspace, result.status):
         return False
