@@ -73,12 +73,12 @@ def measured(speed: float, track: Track, options: ContactOptions, seconds: float
     """
     vehicle = started(speed, track, options, seconds)
     steps = round(seconds / STEP)
-    before = vehicle.benches.last.solutions.copy()
+    before = vehicle.wheel_arrays.last.solutions.copy()
     start = time.process_time()
     vehicle.advance(STEP, steps)
     spent = (time.process_time() - start) / steps
-    solved = float((vehicle.benches.last.solutions - before).mean()) / steps if options.pace > 1 else 1.0
-    arguments = vehicle.model, vehicle.state, vehicle.benches.motions, vehicle.scratch
+    solved = float((vehicle.wheel_arrays.last.solutions - before).mean()) / steps if options.pace > 1 else 1.0
+    arguments = vehicle.model, vehicle.state, vehicle.wheel_arrays.motions, vehicle.scratch
     calls = 500
     prepare_contacts(*arguments, speed)
     move(*arguments, 1e-12, speed)

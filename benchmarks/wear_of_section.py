@@ -44,7 +44,7 @@ def recorded(run: VehicleRun) -> np.ndarray:
             continue
         axle = simulation.model.wheelsets[0]
         for side in range(2):
-            patches = simulation.benches.contacts[side][: int(simulation.wheels[side]["patches"])]
+            patches = simulation.wheel_arrays.contacts[side][: int(simulation.wheels[side]["patches"])]
             patches = patches[patches["area"] > 0.0]
             t_gamma = np.abs(patches["Fx"] * patches["longitudinal"]) + np.abs(patches["Fy"] * patches["lateral"])
             rolled = h * float(simulation.state.u[axle, Axis.X])

@@ -42,8 +42,8 @@ def entries() -> dict[str, Callable[..., Any]]:
 
     def model_field(values, work, k, given):
         v = carray(values, (n_values,))
-        bench, _, _ = arrange(v, work, given)
-        workspace, n = bench.workspace, solve_patch(k, bench)
+        arrays, _, _ = arrange(v, work, given)
+        workspace, n = arrays.workspace, solve_patch(k, arrays)
         m = int(v[elements])
         by_strip = carray(ahead(values, n_values), (len(STRIPS), n))
         by_element = carray(ahead(values, n_values + len(STRIPS) * n), (N_ELEMENT_ROWS, n, m))
@@ -53,7 +53,7 @@ def entries() -> dict[str, Callable[..., Any]]:
             for j in range(m):
                 for row in range(_FIELDS.size):
                     by_element[row, i, j] = workspace.fields[_FIELDS[row], i, j]
-                by_element[_FIELDS.size, i, j] = bench.damage_fields[energy, i, j]
+                by_element[_FIELDS.size, i, j] = arrays.damage_fields[energy, i, j]
         return n
 
     return {**wheel_rail_pair.entries(), "model_field": model_field}

@@ -80,7 +80,7 @@ def test_all_columns_of_a_pair(normal, side):
     """The whole kernel runs on dual numbers: search, frames, creepages, strips and tractions."""
     profiles = profile.s1002(), profile.rail_60e1(inclination=1 / 40)
     pair = WheelRailPair(Pair(*profiles, side=side), normal=normal, n_strips=10, n_elements=10)
-    pair.bench.case["tolerance"] = 1e-11
+    pair.arrays.case["tolerance"] = 1e-11
     pose = Pose(y=3e-3 if side == "right" else -3e-3, yaw=2e-3, roll=1e-3)
     velocity = Velocity(20.0, y=0.01, yaw=3e-3, spin=-20.01 / 0.46)
     pose = dataclasses.replace(pose, z=pair.solve(pose, velocity, load=LOAD).z)
@@ -88,11 +88,11 @@ def test_all_columns_of_a_pair(normal, side):
     found = pair.solve(pose, velocity, derivatives=True)
     assert found.jacobian is not None
     for column, member in enumerate(GIVEN.names or ()):
-        bench, given = copied(pair.bench), record(pair.pair.given(pose, velocity, None))
-        bench.memory[:] = 0.0
+        arrays, given = copied(pair.arrays), record(pair.pair.given(pose, velocity, None))
+        arrays.memory[:] = 0.0
         setattr(given, member, Dual(getattr(given, member), 1.0))
-        plain("pair", "solve_pair")(Height.GIVEN, 0.0, given, bench)
-        total = bench.total[0]
+        plain("pair", "solve_pair")(Height.GIVEN, 0.0, given, arrays)
+        total = arrays.total[0]
         np.testing.assert_allclose([value(total.Fx), value(total.Fy), value(total.Fz)], found.force, rtol=1e-8)
         wanted = np.array([slope(getattr(total, name)) for name in WRENCH])
         error = np.abs(found.jacobian.values[:6, column] - wanted).max() / np.abs(wanted).max()

@@ -16,7 +16,7 @@ def wheelset():
 def test_the_jacobian_is_that_of_the_rates(wheelset):
     x = wheelset.start() + np.array([1e-3, 2e-6, 1e-5, 1e-3, 0.02, 1e-3, 0.01, 0.01, 0.02])
     for pair in wheelset.pairs:
-        pair.bench.case["tolerance"] = 1e-10
+        pair.arrays.case["tolerance"] = 1e-10
     found = wheelset.jacobian(0.02, x)
     steps = 1e-5 * UNITS * np.array([1.0, 0.1, 0.1, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0])
     for k, step in enumerate(steps):
@@ -25,7 +25,7 @@ def test_the_jacobian_is_that_of_the_rates(wheelset):
         wanted = (wheelset.rates(0.02, x + move) - wheelset.rates(0.02, x - move)) / (2.0 * step)
         assert found[:, k] == pytest.approx(wanted, abs=1e-2 * np.abs(wanted).max() + 1e-9), k
     for pair in wheelset.pairs:
-        pair.bench.case["tolerance"] = 0.0
+        pair.arrays.case["tolerance"] = 0.0
 
 
 def test_long_steps_are_stable_and_near_short_ones(wheelset):

@@ -365,7 +365,7 @@ def test_results_can_be_pickled_and_copied():
 
 def test_every_class_that_keeps_arrays_for_kernels_lets_one_thread_in():
     """Words of arrays that are packed once, and blocks of memory, belong to a class that takes turns."""
-    kept = re.compile(r"= pack\(|workspace\.(allocate|bench|\w*search|sheet|aside)\(")
+    kept = re.compile(r"= pack\(|workspace\.(allocate|pair_arrays|\w*search|sheet|derivative_arrays)\(")
     found = set()
     for package in (contact, contact_models):
         for module in pkgutil.walk_packages(package.__path__, package.__name__ + "."):

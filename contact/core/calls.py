@@ -82,7 +82,7 @@ def _packer(kind: Any) -> _Pack:
 
 
 def members_of(kind: Any) -> list[tuple[str, Any]]:
-    """Return (name, annotation) of the members of a group. `Bench[Search]` is a group with another one as its parameter."""
+    """Return (name, annotation) of the members of a group. `PairArrays[Search]` is a group with a parameter."""
     group = get_origin(kind) or kind
     given = dict(zip(getattr(group, "__parameters__", ()), get_args(kind), strict=True))
 

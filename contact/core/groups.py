@@ -1,6 +1,6 @@
 """Groups of arrays in compiled code: a function gets the address of a group, not its hundreds of numbers.
 
-Numba passes every number of a named tuple by itself, and a bench of a pair has 1400 of them. Passed by address, the kernels are
+Numba passes every number of a named tuple by itself; the arrays of a pair have 1400. Passed by address, the kernels are
 half as much code. A group never changes after it was made, which the compiler is told. Inner groups lie inside the outer one.
 Only a process that compiles imports this.
 """

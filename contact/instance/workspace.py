@@ -11,7 +11,18 @@ import numpy as np
 from contact.arrays import Array
 from contact.core import COMPILING, library
 from contact.kernels import memory, quadrature
-from contact.kernels.arrays import Aside, Bench, Ledger, Rule, Search, Sheet, Size, SurfaceSearch, Tables, Workspace
+from contact.kernels.arrays import (
+    DerivativeArrays,
+    Ledger,
+    PairArrays,
+    Rule,
+    Search,
+    Sheet,
+    Size,
+    SurfaceSearch,
+    Tables,
+    Workspace,
+)
 from contact.kernels.damage.deposit import arc_length
 from contact.kernels.normal import influence
 from contact.kernels.normal.between_panels import fill_probes
@@ -172,19 +183,21 @@ def closed_ledger() -> Ledger:
     return _laid(memory.lay_ledger, nothing, nothing, np.zeros((2, len(Bin), 0)), 0)
 
 
-def bench(size: tuple[int, int, int], of_search: Search | SurfaceSearch, arrays: Workspace, of_ledger: Ledger) -> Bench:
+def pair_arrays(
+    size: tuple[int, int, int], of_search: Search | SurfaceSearch, of_patch: Workspace, of_ledger: Ledger
+) -> PairArrays:
     """Return the arrays of a wheel-rail pair, which include its search, its workspace and its ledger."""
     full = Size(*size, 0, 1)
-    kept = np.zeros(memory.pair_memory_size(arrays.space.memory.size))
-    return _laid(memory.lay_bench, full, kept, of_search, arrays, of_ledger)
+    kept = np.zeros(memory.pair_memory_size(of_patch.space.memory.size))
+    return _laid(memory.lay_pair, full, kept, of_search, of_patch, of_ledger)
 
 
-def aside(size: tuple[int, int, int], of_bench: Bench) -> Aside:
-    """Return the arrays that the derivatives of a wheel-rail pair need besides its bench."""
-    full, search = Size(*size, int(of_bench.workspace.space.tangent.size > 1), 1), of_bench.search
+def derivative_arrays(size: tuple[int, int, int], of_pair: PairArrays) -> DerivativeArrays:
+    """Return the arrays that the derivatives of a wheel-rail pair need besides its own."""
+    full, search = Size(*size, int(of_pair.workspace.space.tangent.size > 1), 1), of_pair.search
     if isinstance(search, SurfaceSearch):
         beside = surface_search(search.wheel, search.rail, search.separations.shape[2])
-        near = _laid(memory.lay_beside, beside, of_bench)
+        near = _laid(memory.lay_beside, beside, of_pair)
     else:
-        near = _laid(memory.lay_neighbour, full, of_bench)
-    return _laid(memory.lay_aside, full, near)
+        near = _laid(memory.lay_neighbour, full, of_pair)
+    return _laid(memory.lay_derivative_arrays, full, near)

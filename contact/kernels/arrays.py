@@ -257,7 +257,7 @@ Kind = TypeVar("Kind", Search, SurfaceSearch)
 
 
 @group
-class Bench(NamedTuple, Generic[Kind]):
+class PairArrays(NamedTuple, Generic[Kind]):
     """All arrays of one pair.
 
     `search`, `workspace` and `damage_parameters` hold sizes and constants. `case` holds methods, material and friction.
@@ -287,17 +287,17 @@ class Bench(NamedTuple, Generic[Kind]):
 
 
 @group
-class Aside(NamedTuple, Generic[Kind]):
-    """What the derivatives of a pair need besides its bench (`pair_jacobian`).
+class DerivativeArrays(NamedTuple, Generic[Kind]):
+    """What the derivatives of a pair need besides its own arrays (`pair_jacobian`).
 
-    `bench` solves neighbouring problems; its scratch is that of the pair's bench. `numbers` are the members of the record
+    `neighbour` solves neighbouring problems in the scratch of the pair. `numbers` are the members of the record
     `given`. `start`, `patches` and `middle` are warm start, patches and forces of the middle one, `forces` those of the last
     one. `by_creep[patch, creep]` are derivatives of the forces by the creepages, `creeps[patch, creep]` those of the creepages
     by the motion. `row` is a single row of fields. `tangents` are those of the patches that are `linear`, which is 1 or 0.
     `sides` says for each column on which side it holds.
     """
 
-    bench: Bench[Kind]
+    neighbour: PairArrays[Kind]
     numbers: Numbers
     given: Givens
     start: Numbers

@@ -30,33 +30,33 @@ def _balanced(root, total):
 
 
 @kernel
-def _solve_moved(mode, amount, given, bench):
+def _solve_moved(mode, amount, given, arrays):
     """As `solve_pair`, with the rail displaced by its deflection."""
-    rail = bench.rail[0]
-    bench.moved[0] = given
-    bench.moved[0].rail_y = given.rail_y + rail.dy
-    bench.moved[0].rail_z = given.rail_z + rail.dz
-    return solve_pair(mode, amount, bench.moved[0], bench)
+    rail = arrays.rail[0]
+    arrays.moved[0] = given
+    arrays.moved[0].rail_y = given.rail_y + rail.dy
+    arrays.moved[0].rail_z = given.rail_z + rail.dz
+    return solve_pair(mode, amount, arrays.moved[0], arrays)
 
 
 @kernel
-def _solve_settled(mode, amount, given, bench):
+def _solve_settled(mode, amount, given, arrays):
     """As `solve_pair`, with the vertical deflection in balance."""
-    rail, total, root = bench.rail[0], bench.total[0], bench.roots[1]
+    rail, total, root = arrays.rail[0], arrays.total[0], arrays.roots[1]
     if rail.kz <= 0.0:
         rail.dz = 0.0
-        return _solve_moved(mode, amount, given, bench)
+        return _solve_moved(mode, amount, given, arrays)
     if mode != Height.GIVEN:  # the wheel's height follows from its load, so the force does not depend on dz
-        code = _solve_moved(mode, amount, given, bench)
+        code = _solve_moved(mode, amount, given, arrays)
         left = _left(rail.kz * rail.dz + total.Fz - rail.preload_z, total)
         if code < 0 or left == 0.0:
             return code
         rail.dz -= left / rail.kz
-        return _solve_moved(mode, amount, given, bench)
+        return _solve_moved(mode, amount, given, arrays)
     begin(root, rail.dz, rail.kz, rail.dz - _REACH, rail.dz + _REACH)
     while True:
         rail.dz = root.x
-        code = _solve_moved(mode, amount, given, bench)
+        code = _solve_moved(mode, amount, given, arrays)
         value = _left(rail.kz * rail.dz + total.Fz - rail.preload_z, total)
         if code < 0 or not advance(root, value, _SHORTEST, _MOST):
             rail.balanced = _balanced(root, total)
@@ -64,17 +64,17 @@ def _solve_settled(mode, amount, given, bench):
 
 
 @kernel
-def _settle(mode, amount, given, bench):
+def _settle(mode, amount, given, arrays):
     """As `solve_pair`, with both deflections in balance."""
-    rail, total, root = bench.rail[0], bench.total[0], bench.roots[0]
+    rail, total, root = arrays.rail[0], arrays.total[0], arrays.roots[0]
     rail.balanced = 1
     if rail.ky <= 0.0:
         rail.dy = 0.0
-        return _solve_settled(mode, amount, given, bench)
+        return _solve_settled(mode, amount, given, arrays)
     begin(root, rail.dy, rail.ky, rail.dy - _REACH, rail.dy + _REACH)
     while True:
         rail.dy, rail.balanced = root.x, 1
-        code = _solve_settled(mode, amount, given, bench)
+        code = _solve_settled(mode, amount, given, arrays)
         value = _left(rail.ky * rail.dy + total.Fy - rail.preload_y, total)
         if code < 0 or not advance(root, value, _SHORTEST, _MOST):
             rail.balanced = min(rail.balanced, _balanced(root, total))
@@ -88,27 +88,27 @@ def _sane(deflection):
 
 
 @kernel
-def solve_on_rail(mode, amount, given, bench):
-    """As `solve_pair`, on the rail of `bench.rail`.
+def solve_on_rail(mode, amount, given, arrays):
+    """As `solve_pair`, on the rail of `arrays.rail`.
 
-    The search starts at the deflection of the last call, the last two numbers of `bench.memory`. If the force jumps and no
+    The search starts at the deflection of the last call, the last two numbers of `arrays.memory`. If the force jumps and no
     deflection is in balance, the status is NOT_CONVERGED. Wear is added only for the balance.
     """
-    rail, memory, settings = bench.rail[0], bench.memory, bench.ledger.settings[0]
+    rail, memory, settings = arrays.rail[0], arrays.memory, arrays.ledger.settings[0]
     rail.dy, rail.dz = 0.0, 0.0
     if rail.ky <= 0.0 and rail.kz <= 0.0:
-        return solve_pair(mode, amount, given, bench)
+        return solve_pair(mode, amount, given, arrays)
     rail.dy, rail.dz = _sane(memory[memory.size - 2]), _sane(memory[memory.size - 1])
     dy, dz = rail.dy, rail.dz
     distance = settings.distance
     settings.distance = 0.0
-    code = _settle(mode, amount, given, bench)
+    code = _settle(mode, amount, given, arrays)
     settings.distance = distance
-    if code >= 0 and distance > 0.0 and rail.balanced == 1 and bench.ledger.bins.shape[2] > 0:
-        code = _solve_moved(mode, amount, given, bench)
+    if code >= 0 and distance > 0.0 and rail.balanced == 1 and arrays.ledger.bins.shape[2] > 0:
+        code = _solve_moved(mode, amount, given, arrays)
     if code >= 0:
         dy, dz = rail.dy, rail.dz
         if rail.balanced == 0:
-            bench.total[0].status = Status.NOT_CONVERGED
+            arrays.total[0].status = Status.NOT_CONVERGED
     memory[memory.size - 2], memory[memory.size - 1] = dy, dz
     return code

@@ -9,7 +9,7 @@ wheelset with the centre C' = Q + d - t l' and these angles.
 import math
 
 from contact.core import entry, kernel
-from contact.kernels.arrays import Bench, Given, Search, SurfaceSearch
+from contact.kernels.arrays import Given, PairArrays, Search, SurfaceSearch
 from contact.kernels.elastic_rail import solve_on_rail
 from contact.kernels.enumerations import NoAnswer
 from contact.kernels.geometry.search import axle
@@ -76,34 +76,34 @@ def turn_memory(memory, backwards):
 
 
 @kernel
-def solve_flexible(mode, amount, given, bench):
+def solve_flexible(mode, amount, given, arrays):
     """As `_solve_forwards`, also for a wheelset that rolls backwards on a rail that is constant along the track."""
-    memory, backwards = bench.memory, given.vx < 0.0
+    memory, backwards = arrays.memory, given.vx < 0.0
     turn_memory(memory, backwards)
     if not backwards:
-        return _solve_forwards(mode, amount, given, bench)
-    reflect(given, bench.offset[0])
-    code = _solve_forwards(mode, amount, given, bench)
-    reflect(given, bench.offset[0])
-    _reflect_answer(max(code, 0), bench.contacts, bench.total[0])
+        return _solve_forwards(mode, amount, given, arrays)
+    reflect(given, arrays.offset[0])
+    code = _solve_forwards(mode, amount, given, arrays)
+    reflect(given, arrays.offset[0])
+    _reflect_answer(max(code, 0), arrays.contacts, arrays.total[0])
     memory[0] = -memory[0]
     return code
 
 
 @kernel
-def _solve_forwards(mode, amount, given, bench):
-    """As `solve_on_rail`, for the wheel with the displacement `bench.offset` against its wheelset.
+def _solve_forwards(mode, amount, given, arrays):
+    """As `solve_on_rail`, for the wheel with the displacement `arrays.offset` against its wheelset.
 
     Moment and height are those of the wheelset. Without displacement the results are those of `solve_on_rail`, bit for bit.
     """
-    motion, total = bench.search.motion[0], bench.total[0]
-    x, y, z = displace(given, bench.offset[0], motion.mirror * motion.tape, bench.displaced)
-    moved = bench.displaced[0]
+    motion, total = arrays.search.motion[0], arrays.total[0]
+    x, y, z = displace(given, arrays.offset[0], motion.mirror * motion.tape, arrays.displaced)
+    moved = arrays.displaced[0]
     if abs(moved.roll) > LARGEST_ANGLE or abs(moved.yaw) > LARGEST_ANGLE:
         return NoAnswer.TURNED.value
     station = motion.station
     motion.station = station + x
-    code = solve_on_rail(mode, amount, moved, bench)
+    code = solve_on_rail(mode, amount, moved, arrays)
     motion.station = station
     total.Mx += y * total.Fz - z * total.Fy
     total.My += z * total.Fx - x * total.Fz
@@ -113,12 +113,12 @@ def _solve_forwards(mode, amount, given, bench):
 
 
 @entry
-def solve_on_profiles(mode: int, amount: float, given: Given, bench: Bench[Search]) -> int:
+def solve_on_profiles(mode: int, amount: float, given: Given, arrays: PairArrays[Search]) -> int:
     """As `solve_flexible`, of constant profiles."""
-    return solve_flexible(mode, amount, given, bench)
+    return solve_flexible(mode, amount, given, arrays)
 
 
 @entry
-def solve_on_surfaces(mode: int, amount: float, given: Given, bench: Bench[SurfaceSearch]) -> int:
+def solve_on_surfaces(mode: int, amount: float, given: Given, arrays: PairArrays[SurfaceSearch]) -> int:
     """As `solve_flexible`, of surfaces that change along the way."""
-    return solve_flexible(mode, amount, given, bench)
+    return solve_flexible(mode, amount, given, arrays)

@@ -10,9 +10,9 @@ from contact.core import shared
 from contact.kernels.arrays import (
     Across,
     Array,
-    Aside,
-    Bench,
+    DerivativeArrays,
     Ledger,
+    PairArrays,
     Rule,
     Search,
     Sheet,
@@ -240,14 +240,14 @@ def lay_ledger(block: Array, end: int, wheel: Array, rail: Array, bins: Array, n
 
 @shared
 def pair_memory_size(piece: int) -> int:
-    """Return the size of the memory of a pair whose patches have `piece` numbers each, see `Bench`."""
+    """Return the size of the memory of a pair whose patches have `piece` numbers each, see `PairArrays`."""
     return 1 + MAX_PATCHES * piece + 2
 
 
 @shared
-def lay_bench(
+def lay_pair(
     block: Array, end: int, size: Size, memory: Array, search: Search, workspace: Workspace, ledger: Ledger
-) -> tuple[Bench, int]:
+) -> tuple[PairArrays, int]:
     """Return the arrays of a pair around its search, its workspace and its ledger, and the new end."""
     case, end = records(block, end, 1, CASE)
     patch_case, end = records(block, end, 1, CASE)
@@ -262,17 +262,17 @@ def lay_bench(
     moved, end = records(block, end, 1, GIVEN)
     offset, end = records(block, end, 1, WHEEL_OFFSET)
     displaced, end = records(block, end, 1, GIVEN)
-    bench = Bench(
+    arrays = PairArrays(
         search, workspace, case, patch_case, result, memory, parameters, damage_fields, damage, contacts, total, ledger,
         rail, roots, moved, offset, displaced,
     )  # fmt: skip
-    return bench, end
+    return arrays, end
 
 
 @shared
-def lay_neighbour(block: Array, end: int, size: Size, bench: Bench) -> tuple[Bench, int]:
-    """Return the arrays of a pair that is solved beside that of `bench`, whose scratch it uses, and the new end."""
-    search = bench.search
+def lay_neighbour(block: Array, end: int, size: Size, arrays: PairArrays) -> tuple[PairArrays, int]:
+    """Return the arrays of a pair that is solved beside that of `arrays`, whose scratch it uses, and the new end."""
+    search = arrays.search
     motion, end = records(block, end, 1, MOTION)
     patches, end = records(block, end, MAX_PATCHES, PATCH)
     separations, end = cube(block, end, MAX_PATCHES, len(Sep), size.n_samples)
@@ -280,29 +280,29 @@ def lay_neighbour(block: Array, end: int, size: Size, bench: Bench) -> tuple[Ben
         search.wheel, search.rail, motion, search.grid, patches, separations, search.line, search.placed, search.lobes,
         search.wheel_plane, search.rail_plane, search.case, search.across, search.work, search.strips, search.result,
     )  # fmt: skip
-    return lay_beside(block, end, near, bench)
+    return lay_beside(block, end, near, arrays)
 
 
 @shared
-def lay_beside(block: Array, end: int, near: Search, bench: Bench) -> tuple[Bench, int]:
+def lay_beside(block: Array, end: int, near: Search, arrays: PairArrays) -> tuple[PairArrays, int]:
     """As `lay_neighbour`, around the search `near`."""
-    memory, end = vector(block, end, bench.memory.size)
+    memory, end = vector(block, end, arrays.memory.size)
     case, end = records(block, end, 2, CASE)
     patch_case, end = records(block, end, 1, CASE)
     result, end = records(block, end, 2, RESULT)
     contacts, end = records(block, end, MAX_PATCHES, CONTACT)
     total, end = records(block, end, 1, TOTAL)
     displaced, end = records(block, end, 1, GIVEN)
-    beside = Bench(
-        near, bench.workspace, case, patch_case, result, memory, bench.damage_parameters, bench.damage_fields, bench.damage,
-        contacts, total, bench.ledger, bench.rail, bench.roots, bench.moved, bench.offset, displaced,
+    beside = PairArrays(
+        near, arrays.workspace, case, patch_case, result, memory, arrays.damage_parameters, arrays.damage_fields, arrays.damage,
+        contacts, total, arrays.ledger, arrays.rail, arrays.roots, arrays.moved, arrays.offset, displaced,
     )  # fmt: skip
     return beside, end
 
 
 @shared
-def lay_aside(block: Array, end: int, size: Size, near: Bench) -> tuple[Aside, int]:
-    """Return the arrays for the derivatives of a pair around the bench of its neighbours, and the new end."""
+def lay_derivative_arrays(block: Array, end: int, size: Size, near: PairArrays) -> tuple[DerivativeArrays, int]:
+    """Return the arrays for the derivatives of a pair around those of its neighbours, and the new end."""
     numbers, _ = vector(block, end, Moved.RAIL_ROLL_RATE + 1)
     given, end = records(block, end, 1, GIVEN)
     start, end = vector(block, end, near.memory.size)
@@ -317,7 +317,7 @@ def lay_aside(block: Array, end: int, size: Size, near: Bench) -> tuple[Aside, i
     linear, end = vector(block, end, MAX_PATCHES)
     sides, end = vector(block, end, len(Moved))
     jacobian, end = matrix(block, end, PAIR_ROWS, len(Moved))
-    aside = Aside(
+    derivatives = DerivativeArrays(
         near, numbers, given, start, patches, middle, forces, by_creep, creeps, row, tangents, linear, sides, jacobian
     )
-    return aside, end
+    return derivatives, end

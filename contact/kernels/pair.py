@@ -77,9 +77,9 @@ def space_of_patch(space, memory, tangent):
 
 
 @kernel
-def workspace_of(k, bench):
-    """Return separation and workspace of patch k of the last search. Strips and fields are those of `bench.workspace`."""
-    workspace, memory, sep = bench.workspace, bench.memory, bench.search.separations[k]
+def workspace_of(k, arrays):
+    """Return separation and workspace of patch k of the last search. Strips and fields are those of `arrays.workspace`."""
+    workspace, memory, sep = arrays.workspace, arrays.memory, arrays.search.separations[k]
     piece = (memory.size - 3) // MAX_PATCHES
     space = space_of_patch(workspace.space, memory[1 + k * piece : 1 + (k + 1) * piece], workspace.space.tangent)
     samples = Samples(sep[Sep.Y], sep[Sep.G], sep[Sep.A], sep[Sep.XC], sep[Sep.TILT])
@@ -87,68 +87,73 @@ def workspace_of(k, bench):
 
 
 @kernel
-def _press_patch(k, bench):
+def _press_patch(k, arrays):
     """Solve the normal problem of patch k of the last search at its approach. Return the number of strips.
 
-    Strips are those of `bench.workspace`, until the next patch is solved. `bench.patch_case` has to hold the case of the pair.
+    Strips are those of `arrays.workspace`, until the next patch is solved. `arrays.patch_case` holds the case of the pair.
     """
-    set_case(bench.search.patches[k], bench.search.motion[0], bench.case[0], bench.patch_case[0])
-    samples, of_patch = workspace_of(k, bench)
-    return press(samples, bench.patch_case[0], of_patch, bench.result[0])
+    set_case(arrays.search.patches[k], arrays.search.motion[0], arrays.case[0], arrays.patch_case[0])
+    samples, of_patch = workspace_of(k, arrays)
+    return press(samples, arrays.patch_case[0], of_patch, arrays.result[0])
 
 
 @kernel
-def _roll_patch(k, n_strips, bench):
+def _roll_patch(k, n_strips, arrays):
     """Solve the tangential problem of patch k, whose normal problem was solved last, with its damage."""
-    search, workspace, result, parameters = bench.search, bench.workspace, bench.result[0], bench.damage_parameters[0]
-    case = bench.patch_case[0]
+    search, workspace, result, parameters = (
+        arrays.search,
+        arrays.workspace,
+        arrays.result[0],
+        arrays.damage_parameters[0],
+    )
+    case = arrays.patch_case[0]
     if n_strips > 0:
-        samples, of_patch = workspace_of(k, bench)
+        samples, of_patch = workspace_of(k, arrays)
         complete_pressure(samples, n_strips, case, of_patch, result)
         roll_case(samples, n_strips, case, of_patch, result)
     parameters.speed, parameters.wheel_radius = search.motion[0].vx, search.patches[k].radius
     damage_kernel(
-        workspace.strips, n_strips, workspace.fields, case, result, parameters, bench.damage_fields, bench.damage[0]
+        workspace.strips, n_strips, workspace.fields, case, result, parameters, arrays.damage_fields, arrays.damage[0]
     )
 
 
 @kernel
-def solve_patch(k, bench):
+def solve_patch(k, arrays):
     """Solve patch k of the last search at its approach, as `_press_patch`, and with its fields. Return the number of strips."""
-    n_strips = _press_patch(k, bench)
-    _roll_patch(k, n_strips, bench)
+    n_strips = _press_patch(k, arrays)
+    _roll_patch(k, n_strips, arrays)
     return n_strips
 
 
 @kernel
-def _prepared(n, bench):
+def _prepared(n, arrays):
     """Prepare to solve the `n` patches of a search, if there are any. Return n."""
-    memory = bench.memory
+    memory = arrays.memory
     if n >= 0:
         if memory[0] != n:  # a patch came or went: none starts from another one
             memory[:] = 0.0
             memory[0] = n
-        bench.patch_case[0] = bench.case[0]
+        arrays.patch_case[0] = arrays.case[0]
     return n
 
 
 @kernel
-def _solve(n, pressed, enters, bench):
+def _solve(n, pressed, enters, arrays):
     """Solve the `n` patches of the last search and add up. Return d(ln N)/dz of their normal forces, vertically [1/m].
 
     `pressed` is the number of strips of a single patch whose normal problem is solved already, or below 0. The ledger is
     filled if `enters` says so.
     """
-    workspace, total, result = bench.workspace, bench.total[0], bench.result[0]
-    damage, case, motion = bench.damage[0], bench.patch_case[0], bench.search.motion[0]
+    workspace, total, result = arrays.workspace, arrays.total[0], arrays.result[0]
+    damage, case, motion = arrays.damage[0], arrays.patch_case[0], arrays.search.motion[0]
     for k in range(MAX_PATCHES):
-        clear_contact(bench.contacts[k])
+        clear_contact(arrays.contacts[k])
     clear_total(total)
     normal, stiffness = 0.0, 0.0
     for k in range(n):
-        patch, contact = bench.search.patches[k], bench.contacts[k]
-        n_strips = pressed if pressed >= 0 else _press_patch(k, bench)
-        _roll_patch(k, n_strips, bench)
+        patch, contact = arrays.search.patches[k], arrays.contacts[k]
+        n_strips = pressed if pressed >= 0 else _press_patch(k, arrays)
+        _roll_patch(k, n_strips, arrays)
         total.bend = max(total.bend, result.bend)
         pressure = pressure_wrench(workspace.strips, n_strips)
         report(patch, case, result, pressure, contact)
@@ -160,22 +165,22 @@ def _solve(n, pressed, enters, bench):
             add_wrench(contact, pressure, patch.share, motion, total)
             add_results(result, damage, patch.share, total)
             total.gap_error = max(total.gap_error, contact.gap_error)
-            if enters and bench.ledger.bins.shape[2] > 0 and bench.ledger.settings[0].distance > 0.0:
-                enter(patch, n_strips, damage, bench)
+            if enters and arrays.ledger.bins.shape[2] > 0 and arrays.ledger.settings[0].distance > 0.0:
+                enter(patch, n_strips, damage, arrays)
     total.z, total.n_patches = motion.z, n
     compare_forces(total)
-    mirror_answer(motion.mirror, n, bench.contacts, total)
+    mirror_answer(motion.mirror, n, arrays.contacts, total)
     return stiffness / normal if normal > 0.0 else 0.0
 
 
 @kernel
-def _carried(mode, n, bench):
+def _carried(mode, n, arrays):
     """Return the force that is to equal the load [N]: the vertical part of normal forces, or of all (Height.VERTICAL)."""
     force = 0.0
     for k in range(n):
-        contact = bench.contacts[k]
+        contact = arrays.contacts[k]
         force += contact.N * math.cos(contact.angle) * math.cos(contact.pitch)
-    return -bench.total[0].Fz if mode == Height.VERTICAL else force
+    return -arrays.total[0].Fz if mode == Height.VERTICAL else force
 
 
 @kernel
@@ -198,14 +203,14 @@ def _begin_under(force, search, root):
 
 
 @kernel
-def _from_nothing(n, bench):
+def _from_nothing(n, arrays):
     """Prepare to solve the `n` patches of a search without a start. Return n."""
-    bench.memory[:] = 0.0
-    return _prepared(n, bench)
+    arrays.memory[:] = 0.0
+    return _prepared(n, arrays)
 
 
 @kernel
-def _solve_under(mode, force, bench):
+def _solve_under(mode, force, arrays):
     """As `solve_pair` for Height.LOAD and Height.VERTICAL: find the height by bracketed secants over the own forces.
 
     The force grows with the power 3/2 of the depth, so the secants are those of its power 2/3. The slope at the first trial is
@@ -213,17 +218,17 @@ def _solve_under(mode, force, bench):
     alone. Under a load, a single patch has no tangential problem before the height is found. Where the force jumps over the
     load, the nearest height found is the answer, with the status NOT_CONVERGED.
     """
-    search, total, motion, root = bench.search, bench.total[0], bench.search.motion[0], bench.roots[2]
+    search, total, motion, root = arrays.search, arrays.total[0], arrays.search.motion[0], arrays.roots[2]
     if force <= 0.0:
-        n = _prepared(settle(mode, force, search), bench)
+        n = _prepared(settle(mode, force, search), arrays)
         if n >= 0:
-            _solve(n, -1, False, bench)
+            _solve(n, -1, False, arrays)
         return n
     above, touch, nodes = _begin_under(force, search, root)
     if not above:
         return NoAnswer.NO_OVERLAP.value
     changing = motion.changing
-    iterated = bench.case[0].normal_family == NormalFamily.STRIP_HALFSPACE
+    iterated = arrays.case[0].normal_family == NormalFamily.STRIP_HALFSPACE
     tolerance = max(_ROUGHER if changing else _TOLERANCE, _ITERATED if iterated else 0.0)
     acceptable = _ACCEPTABLE_ROUGH if changing and mode == Height.VERTICAL else _ACCEPTABLE
     best, z_best, mark, idle = math.inf, touch, math.inf, 0
@@ -231,13 +236,13 @@ def _solve_under(mode, force, bench):
         z = touch + root.x
         if changing:  # grids that are laid for another height would change the force
             begin(search, z)
-        n = _from_nothing(describe(search, z, nodes), bench)
-        pressed = _press_patch(0, bench) if mode == Height.LOAD and n == 1 else -1
+        n = _from_nothing(describe(search, z, nodes), arrays)
+        pressed = _press_patch(0, arrays) if mode == Height.LOAD and n == 1 else -1
         if pressed < 0:
-            growth = _solve(n, -1, False, bench)
-            reached = _carried(mode, n, bench)
+            growth = _solve(n, -1, False, arrays)
+            reached = _carried(mode, n, arrays)
         else:
-            patch, result = search.patches[0], bench.result[0]
+            patch, result = search.patches[0], arrays.result[0]
             cosine = math.cos(patch.angle) * math.cos(patch.pitch)
             reached, growth = (result.N * cosine, result.stiffness / result.N * cosine) if pressed > 0 else (0.0, 0.0)
         if root.evaluations == 0 and reached > 0.0 and growth > 0.0:
@@ -255,33 +260,33 @@ def _solve_under(mode, force, bench):
     motion.missed = best
     if best > acceptable and root.high == root.last:
         return NoAnswer.NOT_SETTLED.value
-    enters = bench.ledger.settings[0].distance > 0.0
+    enters = arrays.ledger.settings[0].distance > 0.0
     if z != z_best or (pressed < 0 and enters):
         if changing:
             begin(search, z_best)
-        n = _from_nothing(describe(search, z_best, nodes), bench)
-        _solve(n, -1, enters, bench)
+        n = _from_nothing(describe(search, z_best, nodes), arrays)
+        _solve(n, -1, enters, arrays)
     elif pressed >= 0:
-        _solve(n, pressed, enters, bench)
+        _solve(n, pressed, enters, arrays)
     if best > acceptable:  # the force jumps with the height: on surfaces, and by ANALYN where a lobe appears
         total.status = Status.NOT_CONVERGED.value
     return n
 
 
 @kernel
-def solve_pair(mode, amount, given, bench):
+def solve_pair(mode, amount, given, arrays):
     """Find the patches, solve each of them, add up.
 
     `given` is a record GIVEN of `layout`, `mode` and `amount` are those of `settle`. Under a load the height is found at
     which the vertical parts of the normal forces add up to it, with Height.VERTICAL those of all forces, friction included.
     The forces are those of the normal method. Damage is per patch, with its own rolling radius. What adds up does so with
-    the patches' shares (`search.combine`), which are 1 nearly always. Fills bench.contacts and bench.total, and enters what
-    the patches do into bench.ledger. Returns the number of patches, or a code of `settle` where there is no answer.
+    the patches' shares (`search.combine`), which are 1 nearly always. Fills arrays.contacts and arrays.total, and enters what
+    the patches do into arrays.ledger. Returns the number of patches, or a code of `settle` where there is no answer.
     """
-    move(given, bench.search.motion[0])
+    move(given, arrays.search.motion[0])
     if mode == Height.VERTICAL or mode == Height.LOAD:
-        return _solve_under(mode, amount, bench)
-    n = _prepared(settle(mode, amount, bench.search), bench)
+        return _solve_under(mode, amount, arrays)
+    n = _prepared(settle(mode, amount, arrays.search), arrays)
     if n >= 0:
-        _solve(n, -1, True, bench)
+        _solve(n, -1, True, arrays)
     return n

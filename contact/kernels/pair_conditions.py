@@ -5,7 +5,7 @@ f = 0, df/dz dz + df/dq dq = 0, the column of q gains the column of z times dz/d
 """
 
 from contact.core import entry, kernel
-from contact.kernels.arrays import Aside, Bench, Given, Search, SurfaceSearch
+from contact.kernels.arrays import DerivativeArrays, Given, PairArrays, Search, SurfaceSearch
 from contact.kernels.enumerations import Height
 from contact.kernels.flexible import displace, reflect
 from contact.kernels.geometry.prepare import move
@@ -31,21 +31,21 @@ def _clear_column(jacobian, j):
 
 
 @kernel
-def _touch(aside):
-    """Return z at first touch at the pose of `aside.given` [m]."""
-    search = aside.bench.search
-    move(aside.given[0], search.motion[0])
+def _touch(derivatives):
+    """Return z at first touch at the pose of `derivatives.given` [m]."""
+    search = derivatives.neighbour.search
+    move(derivatives.given[0], search.motion[0])
     return begin(search, search.motion[0].z)[1]
 
 
 @kernel
-def _follow_load(row, sign, aside):
+def _follow_load(row, sign, derivatives):
     """Let z follow the condition that `sign` times the force in `row` is the load."""
-    jacobian = aside.jacobian
+    jacobian = derivatives.jacobian
     slope = sign * jacobian[row, Moved.Z]
     if not slope > 0.0:  # the force does not rise with the depth, so the height is not determined
         for j in range(jacobian.shape[1]):
-            aside.sides[j] = 2.0
+            derivatives.sides[j] = 2.0
         return
     for j in range(jacobian.shape[1]):
         if j != Moved.Z and j != Moved.AMOUNT:
@@ -58,17 +58,17 @@ def _follow_load(row, sign, aside):
 
 
 @kernel
-def _follow_touch(aside):
+def _follow_touch(derivatives):
     """Let z keep its depth below first touch."""
-    jacobian, numbers = aside.jacobian, aside.numbers
+    jacobian, numbers = derivatives.jacobian, derivatives.numbers
     for j in range(Moved.RAIL_ROLL + 1):
         if j == Moved.Z or Moved.VX <= j <= Moved.SPIN:
             continue
         before = numbers[j]
         numbers[j] = before + _SHIFT
-        high = _touch(aside)
+        high = _touch(derivatives)
         numbers[j] = before - _SHIFT
-        rise = (high - _touch(aside)) / (2.0 * _SHIFT)
+        rise = (high - _touch(derivatives)) / (2.0 * _SHIFT)
         numbers[j] = before
         _add_column(jacobian, Moved.Z, rise, j)
         jacobian[HEIGHT, j] += rise
@@ -78,9 +78,9 @@ def _follow_touch(aside):
 
 
 @kernel
-def _follow_springs(rail, aside):
+def _follow_springs(rail, derivatives):
     """Let the rail's deflection keep its balance k d + F = P."""
-    jacobian = aside.jacobian
+    jacobian = derivatives.jacobian
     y, z = Moved.RAIL_Y.value, Moved.RAIL_Z.value
     yy, yz = rail.ky + jacobian[1, y], jacobian[1, z]
     zy, zz = jacobian[2, y], rail.kz + jacobian[2, z]
@@ -91,7 +91,7 @@ def _follow_springs(rail, aside):
     determinant = yy * zz - yz * zy
     if not abs(determinant) > 1e-9 * (abs(yy * zz) + abs(yz * zy)):
         for j in range(jacobian.shape[1]):
-            aside.sides[j] = 2.0
+            derivatives.sides[j] = 2.0
         return
     for j in range(jacobian.shape[1]):  # the columns of the rail last, since all others need them
         if j != y and j != z:
@@ -122,22 +122,22 @@ def _deflect(rail, system, j, jacobian):
 
 
 @kernel
-def _refer_to_wheelset(given, bench, aside):
+def _refer_to_wheelset(given, arrays, derivatives):
     """Refer columns and moments to the wheelset instead of the rigid one that has the displaced wheel (`flexible`)."""
-    jacobian, numbers, forces = aside.jacobian, aside.numbers, aside.middle
-    tape = bench.search.motion[0].mirror * bench.search.motion[0].tape
-    moved = bench.displaced
-    aside.given[0] = given
-    x, y, z = displace(aside.given[0], bench.offset[0], tape, moved)
+    jacobian, numbers, forces = derivatives.jacobian, derivatives.numbers, derivatives.middle
+    tape = arrays.search.motion[0].mirror * arrays.search.motion[0].tape
+    moved = arrays.displaced
+    derivatives.given[0] = given
+    x, y, z = displace(derivatives.given[0], arrays.offset[0], tape, moved)
     for j in range(Moved.ROLL, Moved.YAW_RATE + 1):
         if Moved.VX <= j <= Moved.VZ:
             continue
         before = numbers[j]
         numbers[j] = before + _SHIFT
-        high = displace(aside.given[0], bench.offset[0], tape, moved)
+        high = displace(derivatives.given[0], arrays.offset[0], tape, moved)
         speeds = moved[0].vx, moved[0].vy, moved[0].vz
         numbers[j] = before - _SHIFT
-        low = displace(aside.given[0], bench.offset[0], tape, moved)
+        low = displace(derivatives.given[0], arrays.offset[0], tape, moved)
         numbers[j] = before
         per = 0.5 / _SHIFT
         dx, dy, dz = per * (high[0] - low[0]), per * (high[1] - low[1]), per * (high[2] - low[2])
@@ -154,55 +154,55 @@ def _refer_to_wheelset(given, bench, aside):
         jacobian[3, j] += y * jacobian[2, j] - z * jacobian[1, j]
         jacobian[4, j] += z * jacobian[0, j] - x * jacobian[2, j]
         jacobian[5, j] += x * jacobian[1, j] - y * jacobian[0, j]
-    displace(given, bench.offset[0], tape, moved)
+    displace(given, arrays.offset[0], tape, moved)
 
 
 @kernel
-def _derive_forwards(mode, given, bench, aside):
-    """Fill `aside.jacobian` for the last solution of `bench`, of the motion `given`. Return the number of patches.
+def _derive_forwards(mode, given, arrays, derivatives):
+    """Fill `derivatives.jacobian` for the last solution of `arrays`, of the motion `given`. Return the number of patches.
 
-    Columns are `Moved`. Rows are force and moment of `bench.total`, then its z.
+    Columns are `Moved`. Rows are force and moment of `arrays.total`, then its z.
     """
-    total, rail, numbers = bench.total[0], bench.rail[0], aside.numbers
-    motion = bench.search.motion[0]
-    _, _, z = displace(given, bench.offset[0], motion.mirror * motion.tape, bench.displaced)
-    aside.given[0] = bench.displaced[0]
+    total, rail, numbers = arrays.total[0], arrays.rail[0], derivatives.numbers
+    motion = arrays.search.motion[0]
+    _, _, z = displace(given, arrays.offset[0], motion.mirror * motion.tape, arrays.displaced)
+    derivatives.given[0] = arrays.displaced[0]
     numbers[Moved.Z] = total.z + z
     numbers[Moved.RAIL_Y] += rail.dy
     numbers[Moved.RAIL_Z] += rail.dz
     rigid = rail.ky <= 0.0 and rail.kz <= 0.0
     by_load = mode == Height.LOAD or mode == Height.VERTICAL
-    n = derive(bench, mode == Height.GIVEN and rigid, by_load, aside)
-    jacobian = aside.jacobian
+    n = derive(arrays, mode == Height.GIVEN and rigid, by_load, derivatives)
+    jacobian = derivatives.jacobian
     if n > 0:
         if mode == Height.LOAD:
-            _follow_load(UPWARD, 1.0, aside)
+            _follow_load(UPWARD, 1.0, derivatives)
         elif mode == Height.VERTICAL:
-            _follow_load(2, -1.0, aside)
+            _follow_load(2, -1.0, derivatives)
         elif mode == Height.PENETRATION:
-            _follow_touch(aside)
+            _follow_touch(derivatives)
     if mode == Height.GIVEN:
         jacobian[HEIGHT, Moved.Z] = 1.0
     if n > 0 and not rigid:
-        _follow_springs(rail, aside)
-    offset = bench.offset[0]
+        _follow_springs(rail, derivatives)
+    offset = arrays.offset[0]
     still = offset.x == 0.0 and offset.y == 0.0 and offset.z == 0.0 and offset.roll == 0.0 and offset.yaw == 0.0
     still = still and offset.roll_rate == 0.0 and offset.yaw_rate == 0.0
     if not still:
-        _refer_to_wheelset(given, bench, aside)
+        _refer_to_wheelset(given, arrays, derivatives)
     return n
 
 
 @kernel
-def derive_pair(mode, given, bench, aside):
+def derive_pair(mode, given, arrays, derivatives):
     """As `_derive_forwards`, also for a wheelset that rolls backwards: the derivatives of what is seen in the mirror."""
     if not given.vx < 0.0:
-        return _derive_forwards(mode, given, bench, aside)
-    memory, jacobian = bench.memory, aside.jacobian
+        return _derive_forwards(mode, given, arrays, derivatives)
+    memory, jacobian = arrays.memory, derivatives.jacobian
     memory[0] = abs(memory[0])
-    reflect(given, bench.offset[0])
-    n = _derive_forwards(mode, given, bench, aside)
-    reflect(given, bench.offset[0])
+    reflect(given, arrays.offset[0])
+    n = _derive_forwards(mode, given, arrays, derivatives)
+    reflect(given, arrays.offset[0])
     memory[0] = -memory[0]
     for j in range(jacobian.shape[1]):
         for i in (0, 4, 5):
@@ -214,12 +214,16 @@ def derive_pair(mode, given, bench, aside):
 
 
 @entry
-def derive_on_profiles(mode: int, given: Given, bench: Bench[Search], aside: Aside[Search]) -> int:
+def derive_on_profiles(
+    mode: int, given: Given, arrays: PairArrays[Search], derivatives: DerivativeArrays[Search]
+) -> int:
     """As `derive_pair`, of constant profiles."""
-    return derive_pair(mode, given, bench, aside)
+    return derive_pair(mode, given, arrays, derivatives)
 
 
 @entry
-def derive_on_surfaces(mode: int, given: Given, bench: Bench[SurfaceSearch], aside: Aside[SurfaceSearch]) -> int:
+def derive_on_surfaces(
+    mode: int, given: Given, arrays: PairArrays[SurfaceSearch], derivatives: DerivativeArrays[SurfaceSearch]
+) -> int:
     """As `derive_pair`, of surfaces that change along the way."""
-    return derive_pair(mode, given, bench, aside)
+    return derive_pair(mode, given, arrays, derivatives)

@@ -46,30 +46,30 @@ _SMALL = 1e-6
 
 
 @kernel
-def _workspace_of(k, aside):
+def _workspace_of(k, derivatives):
     """Return separation and workspace of patch k. Fields are left out unless the tangential problem reads them."""
-    bench = aside.bench
-    sep, workspace, memory, case = bench.search.separations[k], bench.workspace, bench.memory, bench.case[0]
+    arrays = derivatives.neighbour
+    sep, workspace, memory, case = arrays.search.separations[k], arrays.workspace, arrays.memory, arrays.case[0]
     piece = (memory.size - 3) // MAX_PATCHES
     samples = Samples(sep[Sep.Y], sep[Sep.G], sep[Sep.A], sep[Sep.XC], sep[Sep.TILT])
-    space = space_of_patch(workspace.space, memory[1 + k * piece : 1 + (k + 1) * piece], aside.tangents[k])
-    fields = workspace.fields if case.conformal != 0 or case.pressure_limit > 0.0 else aside.row
+    space = space_of_patch(workspace.space, memory[1 + k * piece : 1 + (k + 1) * piece], derivatives.tangents[k])
+    fields = workspace.fields if case.conformal != 0 or case.pressure_limit > 0.0 else derivatives.row
     return samples, Workspace(workspace.rule, workspace.tables, space, workspace.strips, fields)
 
 
 @kernel
-def _press(k, place, samples, workspace, aside):
+def _press(k, place, samples, workspace, derivatives):
     """Solve the normal problem of patch k at its approach: by its tangent, or closely. Return the number of strips."""
-    case, result = aside.bench.patch_case[0], aside.bench.result[0]
+    case, result = derivatives.neighbour.patch_case[0], derivatives.neighbour.result[0]
     if place == _SOLVED:
         return loaded_strips(workspace)
     if place == _MIDDLE:
-        case.tolerance = aside.bench.case[0].tolerance
+        case.tolerance = derivatives.neighbour.case[0].tolerance
         n = press_case(samples, case, workspace, result)
-        aside.linear[k] = 1.0 if n > 0 and has_tangent(samples, case, workspace, result) else 0.0
-        if n == 0 or aside.linear[k] > 0.0 or case.normal_family != NormalFamily.STRIP_HALFSPACE:
+        derivatives.linear[k] = 1.0 if n > 0 and has_tangent(samples, case, workspace, result) else 0.0
+        if n == 0 or derivatives.linear[k] > 0.0 or case.normal_family != NormalFamily.STRIP_HALFSPACE:
             return n
-    elif place == _NEAR and aside.linear[k] > 0.0:
+    elif place == _NEAR and derivatives.linear[k] > 0.0:
         clear(result)
         return follow(samples, case.amount, workspace, result)
     case.tolerance = TOLERANCE
@@ -77,22 +77,22 @@ def _press(k, place, samples, workspace, aside):
 
 
 @kernel
-def _solve_patch(k, place, samples, workspace, aside):
-    """Solve patch k at its approach and add its forces to `aside.forces`. Return the number of strips."""
-    bench = aside.bench
-    patch, case, result, contact = bench.search.patches[k], bench.patch_case[0], bench.result[0], bench.contacts[k]
-    set_case(patch, bench.search.motion[0], bench.case[0], case)
-    n = _press(k, place, samples, workspace, aside)
+def _solve_patch(k, place, samples, workspace, derivatives):
+    """Solve patch k at its approach and add its forces to `derivatives.forces`. Return the number of strips."""
+    arrays = derivatives.neighbour
+    patch, case, result, contact = arrays.search.patches[k], arrays.patch_case[0], arrays.result[0], arrays.contacts[k]
+    set_case(patch, arrays.search.motion[0], arrays.case[0], case)
+    n = _press(k, place, samples, workspace, derivatives)
     if n > 0 and place != _SOLVED:
         roll_case(samples, n, case, workspace, result)
     pressure = pressure_wrench(workspace.strips, n)
     report(patch, case, result, pressure, contact)
     if n > 0:
-        total = bench.total[0]
+        total = arrays.total[0]
         clear_total(total)
-        add_wrench(contact, pressure, patch.share, bench.search.motion[0], total)
-        _add(total, 1.0, aside.forces)
-        aside.forces[UPWARD] += contact.N * math.cos(contact.angle) * math.cos(contact.pitch)
+        add_wrench(contact, pressure, patch.share, arrays.search.motion[0], total)
+        _add(total, 1.0, derivatives.forces)
+        derivatives.forces[UPWARD] += contact.N * math.cos(contact.angle) * math.cos(contact.pitch)
     return n
 
 
@@ -129,23 +129,23 @@ def _step_of(c, case, result):
 
 
 @kernel
-def _add_tangential(scale, Fx, Fy, Mz, contact, bench, to):
+def _add_tangential(scale, Fx, Fy, Mz, contact, arrays, to):
     """Add `scale` times the wrench of tangential forces at a contact to a column. The contact's forces are overwritten."""
-    total = bench.total[0]
+    total = arrays.total[0]
     contact.N, contact.Mx, contact.My = 0.0, 0.0, 0.0
     contact.Fx, contact.Fy, contact.Mz = scale * Fx, scale * Fy, scale * Mz
     clear_total(total)
-    add_wrench(contact, (0.0, 0.0, 0.0, 0.0), 0.0, bench.search.motion[0], total)
+    add_wrench(contact, (0.0, 0.0, 0.0, 0.0), 0.0, arrays.search.motion[0], total)
     _add(total, 1.0, to)
 
 
 @kernel
-def _roll_moved(k, samples, n, workspace, aside):
-    """Fill `aside.by_creep[k]`: the derivatives of the forces of patch k, which is solved."""
-    bench = aside.bench
-    patch, contact = bench.search.patches[k], bench.contacts[k]
-    bench.case[1], bench.result[1] = bench.patch_case[0], bench.result[0]
-    case, result, middle = bench.case[1], bench.result[1], bench.result[0]
+def _roll_moved(k, samples, n, workspace, derivatives):
+    """Fill `derivatives.by_creep[k]`: the derivatives of the forces of patch k, which is solved."""
+    arrays = derivatives.neighbour
+    patch, contact = arrays.search.patches[k], arrays.contacts[k]
+    arrays.case[1], arrays.result[1] = arrays.patch_case[0], arrays.result[0]
+    case, result, middle = arrays.case[1], arrays.result[1], arrays.result[0]
     together = fits_together(n, case, middle, workspace.strips)
     if together:
         creepage, spin = creepage_step(case, middle)
@@ -156,14 +156,14 @@ def _roll_moved(k, samples, n, workspace, aside):
             continue
         if c == MU and even:  # by Euler's theorem, as in `jacobian`
             _add_tangential(
-                patch.share / case.mu, middle.Fx, middle.Fy, middle.Mz, contact, bench, aside.by_creep[k, c]
+                patch.share / case.mu, middle.Fx, middle.Fy, middle.Mz, contact, arrays, derivatives.by_creep[k, c]
             )
             for i in range(ROWS):
-                along = case.vx * aside.by_creep[k, 0, i] + case.vy * aside.by_creep[k, 1, i]
-                along += case.phi * aside.by_creep[k, 2, i]
-                aside.by_creep[k, c, i] -= along / case.mu
+                along = case.vx * derivatives.by_creep[k, 0, i] + case.vy * derivatives.by_creep[k, 1, i]
+                along += case.phi * derivatives.by_creep[k, 2, i]
+                derivatives.by_creep[k, c, i] -= along / case.mu
             continue
-        bench.case[1] = bench.patch_case[0]
+        arrays.case[1] = arrays.patch_case[0]
         step = _step_of(c, case, middle)
         clear_forces(result)
         if together and c < COPIES:
@@ -171,68 +171,68 @@ def _roll_moved(k, samples, n, workspace, aside):
         else:
             roll_case(samples, n, case, workspace, result)
         scale, Fx, Fy = patch.share / step if step > 0.0 else 0.0, result.Fx - middle.Fx, result.Fy - middle.Fy
-        _add_tangential(scale, Fx, Fy, result.Mz - middle.Mz, contact, bench, aside.by_creep[k, c])
+        _add_tangential(scale, Fx, Fy, result.Mz - middle.Mz, contact, arrays, derivatives.by_creep[k, c])
 
 
 @kernel
-def _locate(aside):
-    """Describe the patches at the pose of `aside.given`. Return their number."""
-    search = aside.bench.search
-    move(aside.given[0], search.motion[0])
+def _locate(derivatives):
+    """Describe the patches at the pose of `derivatives.given`. Return their number."""
+    search = derivatives.neighbour.search
+    move(derivatives.given[0], search.motion[0])
     return settle(Height.GIVEN, 0.0, search)
 
 
 @kernel
-def _take_solved(bench, aside):
+def _take_solved(arrays, derivatives):
     """Take the single patch of the last solution, whose strips are still there. Return whether it has a tangent."""
-    near = aside.bench
-    near.search.patches[0], near.result[0] = bench.search.patches[0], bench.result[0]
-    samples, workspace = _workspace_of(0, aside)
-    sep = bench.search.separations[0]
+    near = derivatives.neighbour
+    near.search.patches[0], near.result[0] = arrays.search.patches[0], arrays.result[0]
+    samples, workspace = _workspace_of(0, derivatives)
+    sep = arrays.search.separations[0]
     samples = Samples(sep[Sep.Y], sep[Sep.G], sep[Sep.A], sep[Sep.XC], sep[Sep.TILT])
-    fits = has_tangent(samples, bench.patch_case[0], workspace, near.result[0])
-    aside.linear[0] = 1.0 if fits else 0.0
+    fits = has_tangent(samples, arrays.patch_case[0], workspace, near.result[0])
+    derivatives.linear[0] = 1.0 if fits else 0.0
     return fits
 
 
 @kernel
-def _solve_middle(n, place, aside):
+def _solve_middle(n, place, derivatives):
     """Solve the patches of the pose itself, with their derivatives by creepages.
 
     Return a step of the height, and the largest slope.
     """
-    bench = aside.bench
+    arrays = derivatives.neighbour
     approach, steepest, share = 0.0, _LEAST_SLOPE, SMALL
     for k in range(n):
-        samples, workspace = _workspace_of(k, aside)
-        strips = _solve_patch(k, place, samples, workspace, aside)
-        aside.patches[k] = bench.search.patches[k]
-        approach = max(approach, bench.contacts[k].approach)
-        steepest = max(steepest, abs(math.tan(bench.contacts[k].angle)))
-        if aside.linear[k] == 0.0 and bench.case[0].normal_family == NormalFamily.STRIP_HALFSPACE:
+        samples, workspace = _workspace_of(k, derivatives)
+        strips = _solve_patch(k, place, samples, workspace, derivatives)
+        derivatives.patches[k] = arrays.search.patches[k]
+        approach = max(approach, arrays.contacts[k].approach)
+        steepest = max(steepest, abs(math.tan(arrays.contacts[k].angle)))
+        if derivatives.linear[k] == 0.0 and arrays.case[0].normal_family == NormalFamily.STRIP_HALFSPACE:
             share = ITERATED
         if strips > 0:
-            _roll_moved(k, samples, strips, workspace, aside)
+            _roll_moved(k, samples, strips, workspace, derivatives)
     for i in range(ROWS):
-        aside.middle[i] = aside.forces[i]
-    for i in range(bench.memory.size):
-        aside.start[i] = bench.memory[i]
+        derivatives.middle[i] = derivatives.forces[i]
+    for i in range(arrays.memory.size):
+        derivatives.start[i] = arrays.memory[i]
     return share * approach, steepest
 
 
 @kernel
-def _solve_neighbour(n, holds, aside):
+def _solve_neighbour(n, holds, derivatives):
     """Find the forces at the pose described. If the patches are those of the middle, the creepages are too."""
-    bench = aside.bench
-    aside.forces[:] = 0.0
-    for i in range(aside.start.size):
-        bench.memory[i] = aside.start[i] if holds else 0.0
+    arrays = derivatives.neighbour
+    derivatives.forces[:] = 0.0
+    for i in range(derivatives.start.size):
+        arrays.memory[i] = derivatives.start[i] if holds else 0.0
     for k in range(n):
-        patch, middle = bench.search.patches[k], aside.patches[k]
+        patch, middle = arrays.search.patches[k], derivatives.patches[k]
         if holds:
             patch.vx, patch.vy, patch.phi = middle.vx, middle.vy, middle.phi
-        samples, workspace = _workspace_of(k, aside)
-        _solve_patch(k, _NEAR if holds else _OTHER, samples, workspace, aside)
+        samples, workspace = _workspace_of(k, derivatives)
+        _solve_patch(k, _NEAR if holds else _OTHER, samples, workspace, derivatives)
 
 
 @kernel
@@ -250,12 +250,12 @@ def _pose_step(j, height, steepest, motion):
 
 
 @kernel
-def _rise(j, n, mirror, aside):
+def _rise(j, n, mirror, derivatives):
     """Return the change of z per step of column j at which the wheel lies about as deep in the rail, at its deepest patch."""
-    deepest, motion = 0, aside.bench.search.motion[0]
+    deepest, motion = 0, derivatives.neighbour.search.motion[0]
     for k in range(n):
-        deepest = k if aside.patches[k].approach > aside.patches[deepest].approach else deepest
-    patch = aside.patches[deepest]
+        deepest = k if derivatives.patches[k].approach > derivatives.patches[deepest].approach else deepest
+    patch = derivatives.patches[deepest]
     slope = math.tan(patch.angle)
     if j == Moved.Y:
         return mirror * slope
@@ -267,49 +267,49 @@ def _rise(j, n, mirror, aside):
 
 
 @kernel
-def _derive_by_pose(j, width, rise, n, aside):
+def _derive_by_pose(j, width, rise, n, derivatives):
     """Fill column j of the jacobian with forces over the step `width`, or over minus it where patches come or go otherwise.
 
-    `aside.sides[j]` then is -1, and 2 where they come or go on both sides. The forces of patches that do so count. Along the
+    `derivatives.sides[j]` then is -1, and 2 where they do on both sides. The forces of patches that do so count. Along the
     step z changes by `rise` times it.
     """
-    numbers, patches, creeps = aside.numbers, aside.bench.search.patches, aside.creeps
+    numbers, patches, creeps = derivatives.numbers, derivatives.neighbour.search.patches, derivatives.creeps
     before, height, step, found = numbers[j], numbers[Moved.Z], width, n
     for attempt in range(3):
         numbers[j] = before + (-width if attempt == 1 else width)
         step = numbers[j] - before
         if j != Moved.Z:
             numbers[Moved.Z] = height + rise * step
-        found = _locate(aside)
+        found = _locate(derivatives)
         if found == n or attempt == 2:
-            aside.sides[j] = 2.0 if found != n else -1.0 * attempt
+            derivatives.sides[j] = 2.0 if found != n else -1.0 * attempt
             break
     numbers[j], numbers[Moved.Z] = before, height
     if found < 0 or step == 0.0:
         return
     for k in range(n if found == n else 0):
-        creeps[k, 0, j] = (patches[k].vx - aside.patches[k].vx) / step
-        creeps[k, 1, j] = (patches[k].vy - aside.patches[k].vy) / step
-        creeps[k, 2, j] = (patches[k].phi - aside.patches[k].phi) / step
-    _solve_neighbour(found, found == n, aside)
+        creeps[k, 0, j] = (patches[k].vx - derivatives.patches[k].vx) / step
+        creeps[k, 1, j] = (patches[k].vy - derivatives.patches[k].vy) / step
+        creeps[k, 2, j] = (patches[k].phi - derivatives.patches[k].phi) / step
+    _solve_neighbour(found, found == n, derivatives)
     for i in range(ROWS):
-        aside.jacobian[i, j] = (aside.forces[i] - aside.middle[i]) / step
-    aside.jacobian[HEIGHT, j] = rise
+        derivatives.jacobian[i, j] = (derivatives.forces[i] - derivatives.middle[i]) / step
+    derivatives.jacobian[HEIGHT, j] = rise
 
 
 @kernel
-def _derive_by_velocity(j, n, aside):
+def _derive_by_velocity(j, n, derivatives):
     """Fill column j of the slopes of the creepages of the middle pose."""
-    numbers, creeps, motion = aside.numbers, aside.creeps, aside.bench.search.motion[0]
+    numbers, creeps, motion = derivatives.numbers, derivatives.creeps, derivatives.neighbour.search.motion[0]
     slowest = motion.slowest if motion.slowest > 0.0 else SLOWEST
     speed = max(numbers[Moved.VX], slowest)
     before = numbers[j]
     numbers[j] = before + 1.0
-    move(aside.given[0], motion)
+    move(derivatives.given[0], motion)
     numbers[j] = before
     faster = max(before + 1.0, slowest) if j == Moved.VX else speed
     for k in range(n):
-        patch, moved = aside.patches[k], aside.bench.search.patches[k]
+        patch, moved = derivatives.patches[k], derivatives.neighbour.search.patches[k]
         axes = tilted(0.0, 0.0, 0.0, patch.angle, patch.pitch)[3:]
         slip(motion, axes, patch.x, patch.point_y, patch.point_z, moved)
         refers = 1.0 if j == Moved.VX and before > slowest else 0.0  # the creepages refer to this speed
@@ -320,61 +320,64 @@ def _derive_by_velocity(j, n, aside):
 
 
 @kernel
-def derive(bench, is_there, by_load, aside):
-    """Fill `aside.jacobian` at the pose `aside.given` of the rigid wheelset and rail. Return the number of patches.
+def derive(arrays, is_there, by_load, derivatives):
+    """Fill `derivatives.jacobian` at the pose `derivatives.given` of the rigid wheelset and rail. Return the number of patches.
 
     `by_load` says that z will follow a load. Then it follows about already, as the row HEIGHT says: at one height the wheel
-    would sink or lift by far more than it does, and the difference of two large changes would remain. `bench` holds the last
+    would sink or lift by far more than it does, and the difference of two large changes would remain. `arrays` holds the last
     solution, which is the start. If it `is_there`, it is the solution of this pose itself.
     """
-    near = aside.bench
-    jacobian, mirror = aside.jacobian, bench.search.motion[0].mirror
+    near = derivatives.neighbour
+    jacobian, mirror = derivatives.jacobian, arrays.search.motion[0].mirror
     jacobian[:, :] = 0.0
-    aside.by_creep[:, :, :] = 0.0
-    aside.creeps[:, :, :] = 0.0
-    aside.forces[:] = 0.0
-    aside.middle[:] = 0.0
-    aside.sides[:] = 0.0
-    near.search.motion[0] = bench.search.motion[0]
-    near.case[0] = bench.case[0]
+    derivatives.by_creep[:, :, :] = 0.0
+    derivatives.creeps[:, :, :] = 0.0
+    derivatives.forces[:] = 0.0
+    derivatives.middle[:] = 0.0
+    derivatives.sides[:] = 0.0
+    near.search.motion[0] = arrays.search.motion[0]
+    near.case[0] = arrays.case[0]
     near.patch_case[0] = near.case[0]
     for k in range(MAX_PATCHES):
         clear_contact(near.contacts[k])
     for i in range(near.memory.size):
-        near.memory[i] = bench.memory[i]
-    move(aside.given[0], near.search.motion[0])
-    solved = is_there and bench.total[0].n_patches == 1 and _take_solved(bench, aside)
-    n = 1 if solved else _locate(aside)
+        near.memory[i] = arrays.memory[i]
+    move(derivatives.given[0], near.search.motion[0])
+    solved = is_there and arrays.total[0].n_patches == 1 and _take_solved(arrays, derivatives)
+    n = 1 if solved else _locate(derivatives)
     if n <= 0:
         return n
-    if bench.memory[0] != n:
+    if arrays.memory[0] != n:
         near.memory[:] = 0.0
-    height, steepest = _solve_middle(n, _SOLVED if solved else _MIDDLE, aside)
+    height, steepest = _solve_middle(n, _SOLVED if solved else _MIDDLE, derivatives)
     # a loop over a tuple would leave an exception in the library
     for j in range(Moved.RAIL_ROLL_RATE + 1):
         if Moved.VX <= j <= Moved.SPIN or j == Moved.RAIL_ROLL_RATE:
-            _derive_by_velocity(j, n, aside)
+            _derive_by_velocity(j, n, derivatives)
     for j in range(Moved.RAIL_ROLL + 1):
         if j <= Moved.YAW or j == Moved.RAIL_ROLL:
-            rise = _rise(j, n, mirror, aside) if by_load else 0.0
-            _derive_by_pose(j, _pose_step(j, height, steepest, near.search.motion[0]), rise, n, aside)
+            rise = _rise(j, n, mirror, derivatives) if by_load else 0.0
+            _derive_by_pose(j, _pose_step(j, height, steepest, near.search.motion[0]), rise, n, derivatives)
     for j in range(Moved.AMOUNT):
         for k in range(n):
             for c in range(CREEPS):
                 for i in range(ROWS):
-                    jacobian[i, j] += aside.by_creep[k, c, i] * aside.creeps[k, c, j]
+                    jacobian[i, j] += derivatives.by_creep[k, c, i] * derivatives.creeps[k, c, j]
     for k in range(n):
         for i in range(ROWS):
-            jacobian[i, Moved.FRICTION] += aside.by_creep[k, MU, i]
+            jacobian[i, Moved.FRICTION] += derivatives.by_creep[k, MU, i]
     for i in range(ROWS):
         jacobian[i, Moved.RAIL_Y], jacobian[i, Moved.RAIL_Z] = 0.0 - jacobian[i, Moved.Y], 0.0 - jacobian[i, Moved.Z]
         jacobian[i, Moved.RAIL_VY], jacobian[i, Moved.RAIL_VZ] = (
             0.0 - jacobian[i, Moved.VY],
             0.0 - jacobian[i, Moved.VZ],
         )
-    aside.sides[Moved.RAIL_Y], aside.sides[Moved.RAIL_Z] = aside.sides[Moved.Y], aside.sides[Moved.Z]
+    derivatives.sides[Moved.RAIL_Y], derivatives.sides[Moved.RAIL_Z] = (
+        derivatives.sides[Moved.Y],
+        derivatives.sides[Moved.Z],
+    )
     for i in range(1, 6, 2):  # Fy, Mx, Mz
-        aside.middle[i] *= mirror
+        derivatives.middle[i] *= mirror
         for j in range(jacobian.shape[1]):
             jacobian[i, j] *= mirror
     return n

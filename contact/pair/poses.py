@@ -164,9 +164,9 @@ def over_poses(
 
     def work(thread: int) -> None:
         copied = pair.again()
-        bench, solve = copied.bench, copied.solve_given
-        set_surface(bench.case, surface or Friction(0.0), 0.0)
-        case = {name: bench.case[name] for name in ("speed", "mu", "kinetic")}
+        arrays, solve = copied.arrays, copied.solve_given
+        set_surface(arrays.case, surface or Friction(0.0), 0.0)
+        case = {name: arrays.case[name] for name in ("speed", "mu", "kinetic")}
         for k in range(thread, amount.size, count):
             case["speed"][0] = V[k]
             if surface is None:
@@ -177,7 +177,7 @@ def over_poses(
                     found[name][k] = np.nan
                 found["status"][k] = Status.OUT_OF_RANGE
             else:
-                found[k] = bench.total[0]
+                found[k] = arrays.total[0]
             done[thread] += 1
             if progress is not None and thread == 0 and done[0] % _CHUNK == 0:
                 progress(float(done.sum()) / amount.size, f"{done.sum()} of {amount.size} poses")

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from contact.inputs.creepage import Creepage
-from contact.kernels.arrays import Bench
+from contact.kernels.arrays import PairArrays
 from contact.kernels.records import CONTACT, TOTAL
 from contact.pair.solution import Contact, PairDamage, PairSolution
 from contact.results import PairJacobian, Status
@@ -33,11 +33,11 @@ _KEYS = CONTACT.names or ()
 
 
 class Answer:
-    """Reads the records that the kernel fills in `bench`."""
+    """Reads the records that the kernel fills in `arrays`."""
 
-    def __init__(self, bench: Bench) -> None:
-        self._total, self._contacts = (each.view(np.uint8).data for each in (bench.total, bench.contacts))
-        self._deflection = bench.rail["dy"], bench.rail["dz"]
+    def __init__(self, arrays: PairArrays) -> None:
+        self._total, self._contacts = (each.view(np.uint8).data for each in (arrays.total, arrays.contacts))
+        self._deflection = arrays.rail["dy"], arrays.rail["dz"]
 
     def solution(self, n: int, spin: float, jacobian: PairJacobian | None) -> PairSolution:
         """Return the solution with `n` patches. Its arrays, patches and damage are made from copies when one is first read."""

@@ -23,7 +23,7 @@ from contact.inputs.plausibility import doubt_alike, doubt_gap, doubt_strips
 from contact.instance import workspace
 from contact.instance.case import SURFACE, cases, surface_bytes
 from contact.instance.ownership import one_thread, turn_of, within
-from contact.kernels.arrays import Aside, Bench, Given, Ledger, Search, SurfaceSearch
+from contact.kernels.arrays import DerivativeArrays, Given, Ledger, PairArrays, Search, SurfaceSearch
 from contact.kernels.enumerations import Height, NoAnswer
 from contact.kernels.flexible import solve_on_profiles, solve_on_surfaces
 from contact.kernels.pair_conditions import derive_on_profiles, derive_on_surfaces
@@ -75,8 +75,8 @@ class WheelRailPair(AnyPair):
 
     Attributes
     ----------
-    bench : contact.kernels.arrays.Bench
-        All arrays, as the kernel uses them. Only `bench.memory` carries over from one call to the next.
+    arrays : contact.kernels.arrays.PairArrays
+        All arrays, as the kernel uses them. Only `arrays.memory` carries over from one call to the next.
 
     Raises
     ------
@@ -122,12 +122,14 @@ class WheelRailPair(AnyPair):
         n_strips, n_elements = require_resolution(n_strips, n_elements)
         n_samples = pair.separations.shape[2]
         size = self._size = n_strips, n_elements, n_samples
-        self._aside: Aside | None = None  # laid out with the first derivatives
-        self._packed_aside: Any = None
+        self._derivatives: DerivativeArrays | None = None  # laid out with the first derivatives
+        self._packed_derivatives: Any = None
         doubt_alike(material.coupling)
-        arrays = workspace.allocate(method, rolling, material.poisson_ratio, size)
-        self.bench: Bench = workspace.bench(size, self.pair.space, arrays, ledger or workspace.closed_ledger())
-        self.bench.case[:] = cases(
+        scratch = workspace.allocate(method, rolling, material.poisson_ratio, size)
+        self.arrays: PairArrays = workspace.pair_arrays(
+            size, self.pair.space, scratch, ledger or workspace.closed_ledger()
+        )
+        self.arrays.case[:] = cases(
             1,
             method,
             rolling,
@@ -137,22 +139,22 @@ class WheelRailPair(AnyPair):
         )
         constant = isinstance(pair, Pair)
         self._solve = solve_on_profiles if constant else solve_on_surfaces
-        self._packed = pack(Bench[Search] if constant else Bench[SurfaceSearch], self.bench)
+        self._packed = pack(PairArrays[Search] if constant else PairArrays[SurfaceSearch], self.arrays)
         self._gap_limit = method.gap_limit
         self._rail, self._offset = _RIGID, _STRAIGHT
-        self._answer = Answer(self.bench)
+        self._answer = Answer(self.arrays)
         self._motion = np.zeros(1, GIVEN)
         self._packed_motion = pack(Given, self._motion[0])
-        self._bytes = self._motion.view(np.uint8).data, self.bench.case.view(np.uint8).data
-        self._speed, self._distance = self.bench.case["speed"], self.bench.ledger.settings["distance"]
+        self._bytes = self._motion.view(np.uint8).data, self.arrays.case.view(np.uint8).data
+        self._speed, self._distance = self.arrays.case["speed"], self.arrays.ledger.settings["distance"]
         self._surface: tuple[object, bytes] = (None, b"")
-        self.bench.damage_parameters[:] = (damage or DamageParameters()).record(material, 1.0, 1.0)
+        self.arrays.damage_parameters[:] = (damage or DamageParameters()).record(material, 1.0, 1.0)
 
     def _kept(self) -> Any:
-        return self.bench.memory.copy()
+        return self.arrays.memory.copy()
 
     def _keep(self, kept: Any) -> None:
-        self.bench.memory[:] = kept
+        self.arrays.memory[:] = kept
 
     @one_thread
     def forget(self) -> None:
@@ -160,7 +162,7 @@ class WheelRailPair(AnyPair):
 
         Interacting strips start from the last call. This changes their results within their tolerance, 1e-4.
         """
-        self.bench.memory[:] = 0.0
+        self.arrays.memory[:] = 0.0
 
     @one_thread
     def solve(
@@ -256,7 +258,7 @@ class WheelRailPair(AnyPair):
                     offset=offset,
                 )
 
-            shear_modulus = float(self.bench.case[0]["G"])
+            shear_modulus = float(self.arrays.case[0]["G"])
             return drive(turning, velocity or Velocity(), self.pair.nominal_radius, shear_modulus, force, torque)
         if vertical is None:
             mode, amount = self.pair.prescribed(load, penetration)
@@ -300,13 +302,13 @@ class WheelRailPair(AnyPair):
         self, mode: int, given: np.record, load: float | None, penetration: float | None, vertical: float | None
     ) -> PairJacobian:
         """Return the derivatives of the last solution, labelled."""
-        aside = within(self.derive_given)(mode, given)
+        derivatives = within(self.derive_given)(mode, given)
         amounts = {"load": load, "penetration": penetration, "vertical": vertical}
         name = next((name for name, amount in amounts.items() if amount is not None), None)
         shown = _ALL if name else _WITHOUT_AMOUNT
-        values = aside.jacobian[: len(PairJacobian.rows), shown]
+        values = derivatives.jacobian[: len(PairJacobian.rows), shown]
         values.setflags(write=False)
-        sided = np.flatnonzero(aside.sides[shown])
+        sided = np.flatnonzero(derivatives.sides[shown])
         one_sided = tuple(columns_of_pair(name)[k] for k in sided) if sided.size else ()
         return PairJacobian(values, name, one_sided)
 
@@ -346,24 +348,26 @@ class WheelRailPair(AnyPair):
 
     @one_thread
     def solve_given(self, mode: int, amount: float, given: np.record) -> int:
-        """Call the kernel for the record GIVEN of a motion and return its code. The result is in `bench`."""
+        """Call the kernel for the record GIVEN of a motion and return its code. The result is in `arrays`."""
         return int(self._solve(mode, amount, given, self._packed))
 
     @one_thread
-    def derive_given(self, mode: int, given: np.record) -> Aside:
+    def derive_given(self, mode: int, given: np.record) -> DerivativeArrays:
         """Call the kernel of the derivatives of the last solution, of this motion. They are in what is returned."""
         constant = isinstance(self.pair, Pair)
-        if self._aside is None:
-            self._aside = workspace.aside(self._size, self.bench)
-            self._packed_aside = pack(Aside[Search] if constant else Aside[SurfaceSearch], self._aside)
-        (derive_on_profiles if constant else derive_on_surfaces)(mode, given, self._packed, self._packed_aside)
-        return self._aside
+        if self._derivatives is None:
+            self._derivatives = workspace.derivative_arrays(self._size, self.arrays)
+            self._packed_derivatives = pack(
+                DerivativeArrays[Search] if constant else DerivativeArrays[SurfaceSearch], self._derivatives
+            )
+        (derive_on_profiles if constant else derive_on_surfaces)(mode, given, self._packed, self._packed_derivatives)
+        return self._derivatives
 
     def _set_rail(self, rail: ElasticRail) -> None:
         if rail is not self._rail:
             if not isinstance(rail, ElasticRail):
                 raise ContactError(f"rail = {rail!r} is not a contact.pair.ElasticRail")
-            springs = self.bench.rail
+            springs = self.arrays.rail
             springs["ky"], springs["kz"], springs["preload_y"], springs["preload_z"] = rail.record()
             self._rail = rail
 
@@ -371,5 +375,5 @@ class WheelRailPair(AnyPair):
         if offset is not self._offset:
             if not isinstance(offset, WheelOffset):
                 raise ContactError(f"offset = {offset!r} is not a contact.geometry.flexible.WheelOffset")
-            self.bench.offset[0] = offset.record()
+            self.arrays.offset[0] = offset.record()
             self._offset = offset

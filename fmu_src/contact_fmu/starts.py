@@ -60,7 +60,7 @@ def open_vehicle(given: Scenario, start: float) -> Starts:
     )
     rails = given.rails * len(given.vehicle.wheelsets)
     simulation = Simulation(given.vehicle, track, given.wheels, rails, given.friction, options, start=start)
-    origin = simulation.benches.motions[0]
+    origin = simulation.wheel_arrays.motions[0]
     heights = simulation.state.q[simulation.model.wheelsets, Axis.Z]
     found: dict[str, float | str | tuple[float, ...]] = {
         **inputs(given, start),

@@ -88,7 +88,7 @@ def test_three_trials_find_the_height_on_average(kind):
     pair, counts = WheelRailPair(Pair(WHEEL, RAIL)), []
     for y in np.linspace(-4e-3, 6e-3, 21):
         assert pair.solve(Pose(y=y), VELOCITY, **{kind: 80e3}).status is not Status.NOT_CONVERGED
-        counts.append(int(pair.bench.roots["evaluations"][-1]))
+        counts.append(int(pair.arrays.roots["evaluations"][-1]))
     assert np.mean(counts) < 3.3
     assert max(counts) <= 6
 

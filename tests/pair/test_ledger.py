@@ -36,7 +36,7 @@ def pair(side="right", law="archard", rail_wear=1.0, **options):
 def rolled(pair, mirror=1.0):
     for pose, distance in ROLLED.items():
         pair.solve(Pose(y=mirror * pose.y, yaw=mirror * pose.yaw), VELOCITY, load=60e3, distance=distance)
-    return pair.bench.ledger.bins
+    return pair.arrays.ledger.bins
 
 
 @pytest.mark.parametrize("law", WEAR_LAWS)
@@ -89,7 +89,7 @@ def test_bins_add_up_to_the_totals_even_if_the_contact_lies_outside():
             damage = run.solve(pose, VELOCITY, load=60e3, distance=distance).damage
         T_gamma, volume = T_gamma + distance * damage.T_gamma, volume + distance * damage.archard_volume
     for run in (few, many):
-        for body in run.bench.ledger.bins:
+        for body in run.arrays.ledger.bins:
             assert body[Bin.T_GAMMA].sum() == pytest.approx(T_gamma, rel=1e-12)
             assert body[Bin.VOLUME].sum() == pytest.approx(volume, rel=1e-12)
 
@@ -102,7 +102,7 @@ def test_growth_is_linear_and_zero_without_rolling_or_contact():
     for pose in ROLLED:
         run.solve(pose, VELOCITY, load=60e3)
     run.solve(Pose(), VELOCITY, load=0.0, distance=100.0)
-    bins = run.bench.ledger.bins
+    bins = run.arrays.ledger.bins
     np.testing.assert_allclose(bins[:, : len(SUMS)], 5.0 * once[:, : len(SUMS)], rtol=1e-13)
     np.testing.assert_array_equal(bins[:, Bin.ENERGY_INDEX_MAX], once[:, Bin.ENERGY_INDEX_MAX])
     with pytest.raises(ContactError, match="distance = -1"):

@@ -238,22 +238,22 @@ def test_interacting_strips_start_from_the_last_call_unless_the_patches_changed(
 def test_results_do_not_depend_on_old_content_of_scratch_arrays(normal):
     """Only `memory` passes from one call to the next, so it is the whole FMU state."""
     pair = make(normal=normal)
-    own, search = pair.bench.workspace, pair.bench.search
+    own, search = pair.arrays.workspace, pair.arrays.search
     scratch = [
         a
         for a in (*own.space, own.strips, own.fields, *search[4:11])
         if a is not own.space.memory and a.dtype.names is None
     ]
     for k in range(20):
-        before = pair.bench.memory.copy()
+        before = pair.arrays.memory.copy()
         answers = []
         for rubbish in (0.0, math.nan, 1.0):
             for array in scratch:
                 array[...] = rubbish
-            pair.bench.memory[:] = before
+            pair.arrays.memory[:] = before
             pose = Pose(y=6e-3 * math.sin(0.4 * k), roll=1e-3, yaw=4e-3 * math.cos(k))
             s = pair.solve(pose, load=8e4 + 1e4 * math.cos(k))
-            answers.append(np.concatenate((s.force, s.moment, s.damage, pair.bench.memory)))
+            answers.append(np.concatenate((s.force, s.moment, s.damage, pair.arrays.memory)))
         np.testing.assert_array_equal(answers[1:], answers[:1] * 2)
 
 

@@ -23,7 +23,7 @@ RAIL = [("y", 2e-7), ("z", 2e-8), ("roll", 1e-7), ("y_rate", 1e-7), ("z_rate", 1
 def made(side="right", inclination=1 / 40, **options) -> WheelRailPair:
     wheel, rail = profile.s1002(), profile.rail_60e1(inclination=inclination)
     pair = WheelRailPair(Pair(wheel, rail, side=side, **options))
-    pair.bench.case["tolerance"] = 1e-10
+    pair.arrays.case["tolerance"] = 1e-10
     return pair
 
 
@@ -177,7 +177,7 @@ def test_a_jacobian_is_read_by_names_and_shown_with_units(right):
 def test_columns_under_a_load_are_those_at_the_height_that_the_method_itself_finds(normal):
     """The separation is that at the height of the load; at ANALYN's height slopes are up to 1e-2 others."""
     pair = WheelRailPair(Pair(profile.s1002(), profile.rail_60e1(inclination=1 / 40)), normal=normal)
-    pair.bench.case["tolerance"] = 1e-10
+    pair.arrays.case["tolerance"] = 1e-10
     pose, velocity, load = Pose(y=-4e-3, roll=-1e-3, yaw=5e-3), Velocity(20.0, y=0.01, spin=-20.01 / 0.46), 60e3
 
     def at(z: float, y: float) -> tuple[np.ndarray, float]:

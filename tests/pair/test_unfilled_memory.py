@@ -39,7 +39,7 @@ def fill(array, rng):
 def test_what_the_memory_held_does_not_matter(methods):
     pair = WheelRailPair(Pair(profile.s1002(), profile.rail_60e1(1.0 / 40.0)), **methods)
     left = ("workspace.rule", "workspace.tables", "ledger")
-    own = {n: a for n, a in arrays(pair.bench) if n not in GIVEN and not n.startswith(left) and a.size}
+    own = {n: a for n, a in arrays(pair.arrays) if n not in GIVEN and not n.startswith(left) and a.size}
     assert {"search.lobes", "search.patches", "contacts", "total"} <= set(own)
     rng = np.random.default_rng(3)
     for _ in range(40):
@@ -49,7 +49,7 @@ def test_what_the_memory_held_does_not_matter(methods):
             for array in own.values():
                 fill(array, rng)
             for name in ("station", "rotation", "reach", "tilted", "changing"):
-                fill(pair.bench.search.motion[name], rng)
+                fill(pair.arrays.search.motion[name], rng)
             pair.forget()
             found.append(numbers(pair.solve(pose, Velocity(20.0, spin=-43.4), load=load)))
         np.testing.assert_array_equal(*found)
@@ -59,7 +59,7 @@ def test_what_the_memory_of_surfaces_held_does_not_matter():
     """The last motion must only be known as none: its radius is 0."""
     pair = WheelRailPair(SurfacePair(profile.s1002(), crossing(), rail_origin=(0.75, 0.0)), normal="analyn")
     left = ("workspace.rule", "workspace.tables", "ledger", "search.wheel.", "search.rail.")
-    own = {n: a for n, a in arrays(pair.bench) if n not in GIVEN and not n.startswith(left) and a.size}
+    own = {n: a for n, a in arrays(pair.arrays) if n not in GIVEN and not n.startswith(left) and a.size}
     assert {"search.coarse", "search.boxes", "search.h", "total"} <= set(own)
     rng = np.random.default_rng(3)
     for station in (0.1, 0.158, 0.162, 0.3):
@@ -67,8 +67,8 @@ def test_what_the_memory_of_surfaces_held_does_not_matter():
         for _ in range(2):
             for array in own.values():
                 fill(array, rng)
-            fill(pair.bench.search.motion[1:], rng)
-            pair.bench.search.motion[1].radius = 0.0
+            fill(pair.arrays.search.motion[1:], rng)
+            pair.arrays.search.motion[1].radius = 0.0
             pair.forget()
             found.append(numbers(pair.solve(Pose(y=1e-3), Velocity(20.0, spin=-43.4), station=station, load=8e4)))
         np.testing.assert_array_equal(*found)

@@ -112,7 +112,7 @@ def test_the_fmu_gives_the_run_of_the_one_kernel(folder, options, place, force):
         whole.advance(STEP, 10)
         fmu.step(10 * STEP)
     if options.pace > 1:
-        assert whole.benches.last.solutions.mean() < 0.9 * many
+        assert whole.wheel_arrays.last.solutions.mean() < 0.9 * many
     assert np.abs(np.diff(whole.wheels["vertical"])).max() > 100.0  # the wheels differ
     assert np.abs(fmu.motion - whole.state.q).max() <= place
     assert np.abs(fmu.forces - forces_of(whole)).max() <= force

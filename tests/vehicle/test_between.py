@@ -60,8 +60,8 @@ def test_forces_agree_with_those_of_a_solution_at_every_step(both):
 
 def test_most_steps_need_no_solution(both):
     (exact, _), (paced, _) = both
-    assert paced.benches.last.solutions.mean() < 0.35 * 8000
-    assert not exact.benches.last.solutions.any()  # nothing is kept
+    assert paced.wheel_arrays.last.solutions.mean() < 0.35 * 8000
+    assert not exact.wheel_arrays.last.solutions.any()  # nothing is kept
 
 
 def test_balance_and_dissipation_stay_the_same(both):
@@ -81,7 +81,7 @@ def test_the_balance_on_irregular_straight_track_is_that_of_a_solution_at_every_
     for sim in (exact, paced):
         sim.advance(STEP, 4500)
     assert residual(paced) == pytest.approx(residual(exact), abs=3e-4)
-    assert paced.benches.last.solutions.mean() < 0.6 * 4500
+    assert paced.wheel_arrays.last.solutions.mean() < 0.6 * 4500
 
 
 def test_left_curve_is_the_mirror_image_of_the_right_one():
@@ -106,17 +106,17 @@ def test_impacts_of_a_hunting_wheelset_are_solved_and_close():
     assert paced.state.books[Book.IMPACTS] == pytest.approx(exact.state.books[Book.IMPACTS], abs=2)
     assert paced.state.books[Book.IMPACTS] > 5
     assert abs(residual(paced)) < 5e-3
-    assert (paced.benches.last.solutions > 10000).all()
+    assert (paced.wheel_arrays.last.solutions > 10000).all()
 
 
 def test_a_wheel_in_the_air_is_solved_at_every_step():
     sim = simulation("wheelset", options=PACED)
     sim.advance(1e-4, 100)
-    before = sim.benches.last.solutions.copy()
+    before = sim.wheel_arrays.last.solutions.copy()
     sim.state.q[1, Axis.Z] -= 2e-3  # pressed down by its load, it is back after 8 ms
     sim.advance(1e-4, 50)
     assert not sim.wheels["normal"].any()
-    assert (sim.benches.last.solutions - before == 50).all()
+    assert (sim.wheel_arrays.last.solutions - before == 50).all()
 
 
 def test_no_bit_depends_on_the_number_of_threads():
@@ -131,13 +131,13 @@ def test_no_bit_depends_on_the_number_of_threads():
             run.advance(STEP, steps)
     for name, array in runs[0].kept.items():
         np.testing.assert_array_equal(array, runs[1].kept[name], err_msg=name)
-    assert (runs[0].benches.last.solutions < 600).all()
+    assert (runs[0].wheel_arrays.last.solutions < 600).all()
 
 
 def test_a_restored_run_goes_on_between_two_solutions():
     first = simulation("wheelset", Track(alignment=Irregularities(spectrum="ERRI B176 low")), options=PACED)
     first.advance(STEP, 498)
-    while not (first.benches.last.ages == 2).all():
+    while not (first.wheel_arrays.last.ages == 2).all():
         first.advance(STEP)
     saved = {name: array.copy() for name, array in first.kept.items()}
     ends = []

@@ -59,7 +59,7 @@ def test_a_free_conical_wheelset_has_klingels_wavelength():
     sim = simulation(free, speed=speed, wheel=profile.cone(conicity))
     lateral = [m for m in linear.modes(sim) if 0.1 < m.frequency < 5.0 and abs(m.damping) < 0.5]
     sim.advance(1e-6)
-    half_base = 0.5 * (sim.benches.contacts["y"][0, 0] - sim.benches.contacts["y"][1, 0])
+    half_base = 0.5 * (sim.wheel_arrays.contacts["y"][0, 0] - sim.wheel_arrays.contacts["y"][1, 0])
     wavelength = 2.0 * math.pi * math.sqrt(0.46 * half_base / conicity)
     assert speed / min(m.frequency for m in lateral) == pytest.approx(wavelength, rel=0.01)
 

@@ -35,7 +35,7 @@ def test_no_bit_of_a_run_depends_on_the_number_of_threads():
         for name, array in alone.state._asdict().items():
             np.testing.assert_array_equal(getattr(together.state, name), array, err_msg=name)
         np.testing.assert_array_equal(together.wheels, alone.wheels)
-        np.testing.assert_array_equal(together.benches.memories, alone.benches.memories)
+        np.testing.assert_array_equal(together.wheel_arrays.memories, alone.wheel_arrays.memories)
 
 
 def test_a_wheel_that_leaves_its_rail_ends_all_threads_with_the_same_message():

@@ -60,41 +60,41 @@ def lay_start(work, end, piece, n_bins):
 
 
 @arranging
-def lay_bench(work, end, profiles, facing, size, kept, bins, constants):
-    """Lay out the bench from index `end` on. Return it, the index of the strips and the new end.
+def lay_pair(work, end, profiles, facing, size, kept, bins, constants):
+    """Lay out the pair's arrays from index `end` on. Return it, the index of the strips and the new end.
 
     `profiles` are the rows of wheel and rail, `facing` how many nodes of them can touch, `kept` is the warm start.
     """
     search, end = memory.lay_search(work, end, facing[0], facing[1], 0, size.n_samples)
     workspace, at_strips, end = lay_out(work, end, kept[1 : 1 + memory.memory_size(size)], size, constants)
     ledger, end = memory.lay_ledger(work, end, profiles[0], profiles[1], bins, size.n_strips)
-    bench, end = memory.lay_bench(work, end, size, kept, search, workspace, ledger)
-    return bench, at_strips, end
+    arrays, end = memory.lay_pair(work, end, size, kept, search, workspace, ledger)
+    return arrays, at_strips, end
 
 
 @arranging
-def lay_derivatives(work, end, size, bench):
-    """Lay out what the derivatives of `bench` need. Return it and the new end."""
-    near, end = memory.lay_neighbour(work, end, size, bench)
-    return memory.lay_aside(work, end, size, near)
+def lay_derivatives(work, end, size, arrays):
+    """Lay out what the derivatives of `arrays` need. Return it and the new end."""
+    near, end = memory.lay_neighbour(work, end, size, arrays)
+    return memory.lay_derivative_arrays(work, end, size, near)
 
 
 @arranging
 def _lay(sizes, work, constants):
-    """Return the start, the bench, the indices of the strips and of the kept bins, and the size in numbers."""
+    """Return the start, the pair's arrays, the indices of the strips and of the kept bins, and the size in numbers."""
     size, s = size_of(sizes), carray(sizes, (9,))
     start, at_bins, end = lay_start(work, 0, memory.memory_size(size), int(s[6]))
     wheel, end = block.matrix(work, end, N_PROFILE_ROWS, int(s[4]))
     rail, end = block.matrix(work, end, N_PROFILE_ROWS, int(s[5]))
     facing = int(s[7]), int(s[8])
-    bench, at_strips, end = lay_bench(work, end, (wheel, rail), facing, size, start.trial, start.bins, constants)
-    return start, bench, at_strips, at_bins, end
+    arrays, at_strips, end = lay_pair(work, end, (wheel, rail), facing, size, start.trial, start.bins, constants)
+    return start, arrays, at_strips, at_bins, end
 
 
 @arranging
-def fill_profiles(bench):
+def fill_profiles(arrays):
     """Copy the parts of the ledger's profiles that can touch to the search, and fill what else follows from both profiles."""
-    search, ledger = bench.search, bench.ledger
+    search, ledger = arrays.search, arrays.ledger
     low, high = facing(ledger.wheel, True)
     take_nodes(ledger.wheel, low, high, search.wheel)
     low, high = facing(ledger.rail, False)
@@ -128,21 +128,21 @@ def reset(a):
 
 
 @arranging
-def set_options(motion, y, z, case, parameters, bench):
-    """Copy what stays constant to the bench. (y, z) is the place of the rail's origin [m]."""
+def set_options(motion, y, z, case, parameters, arrays):
+    """Copy what stays constant to the pair's arrays. (y, z) is the place of the rail's origin [m]."""
     motions, _ = block.records(motion, 0, 1, MOTION)
-    bench.search.motion[0] = motions[0]
-    bench.search.motion[0].origin_y, bench.search.motion[0].origin_z = y, z
+    arrays.search.motion[0] = motions[0]
+    arrays.search.motion[0].origin_y, arrays.search.motion[0].origin_z = y, z
     cases, _ = block.records(case, 0, 1, CASE)
-    bench.case[0] = cases[0]
-    bench.search.case[0].G, bench.search.case[0].nu = cases[0].G, cases[0].nu
+    arrays.case[0] = cases[0]
+    arrays.search.case[0].G, arrays.search.case[0].nu = cases[0].G, cases[0].nu
     constants, _ = block.records(parameters, 0, 1, DAMAGE_PARAMETERS)
-    bench.damage_parameters[0] = constants[0]
-    bench.ledger.settings[0].distance = 0.0
+    arrays.damage_parameters[0] = constants[0]
+    arrays.ledger.settings[0].distance = 0.0
 
 
 @arranging
-def solve_from(a, bench, piece, cold, mode, amount, distance, motion, case, rail, offset, total, contacts, deflected):
+def solve_from(a, arrays, piece, cold, mode, amount, distance, motion, case, rail, offset, total, contacts, deflected):
     """Solve at one instant from the kept start, or with `cold` from nothing. Return the number of patches or `NoAnswer`."""
     copy(a.kept, a.trial)
     _copy_bins(a.kept_bins, a.bins)
@@ -154,17 +154,17 @@ def solve_from(a, bench, piece, cold, mode, amount, distance, motion, case, rail
     springs, _ = block.records(rail, 0, 1, ELASTIC_RAIL)
     offsets, _ = block.records(offset, 0, 1, WHEEL_OFFSET)
     givens, _ = block.records(motion, 0, 1, GIVEN)
-    bench.case[0], bench.rail[0], bench.offset[0] = cases[0], springs[0], offsets[0]
-    bench.ledger.settings[0].distance = distance
-    code = solve_flexible(mode, amount, givens[0], bench)
+    arrays.case[0], arrays.rail[0], arrays.offset[0] = cases[0], springs[0], offsets[0]
+    arrays.ledger.settings[0].distance = distance
+    code = solve_flexible(mode, amount, givens[0], arrays)
     if code < 0:
         return code
     totals, _ = block.records(total, 0, 1, TOTAL)
     patches, _ = block.records(contacts, 0, MAX_PATCHES, CONTACT)
     out, _ = block.records(deflected, 0, 1, ELASTIC_RAIL)
-    totals[0], out[0] = bench.total[0], bench.rail[0]
+    totals[0], out[0] = arrays.total[0], arrays.rail[0]
     for k in range(MAX_PATCHES):
-        patches[k] = bench.contacts[k]
+        patches[k] = arrays.contacts[k]
     return code if math.isfinite(a.bins.sum()) else -100
 
 
@@ -176,39 +176,39 @@ def accept(a):
 
 
 @arranging
-def solve_again(a, bench, piece, k, result):
+def solve_again(a, arrays, piece, k, result):
     """Solve patch k of the last solution once more, for its strips and fields. Return the number of strips.
 
     It starts from what the last solution has left, which it restores.
     """
     of_patch = a.trial[1 + k * piece : 1 + (k + 1) * piece]
     copy(of_patch, a.spare)
-    n = solve_patch(k, bench)
+    n = solve_patch(k, arrays)
     copy(a.spare, of_patch)
     results, _ = block.records(result, 0, 1, RESULT)
-    results[0] = bench.result[0]
+    results[0] = arrays.result[0]
     return n
 
 
 @arranging
-def fill_derivatives(mode, motion, bench, aside, jacobian):
-    """Fill `jacobian`, shape (6, 17), for the last solution of `bench`. Return the number of patches or `NoAnswer`."""
+def fill_derivatives(mode, motion, arrays, derivatives, jacobian):
+    """Fill `jacobian`, shape (6, 17), for the last solution of `arrays`. Return the number of patches or `NoAnswer`."""
     givens, _ = block.records(motion, 0, 1, GIVEN)
-    code = derive_pair(mode, givens[0], bench, aside)
+    code = derive_pair(mode, givens[0], arrays, derivatives)
     out, _ = block.matrix(jacobian, 0, 6, Moved.FRICTION.value)
     for i in range(6):
         for j in range(out.shape[1]):
-            out[i, j] = aside.jacobian[i, j]
+            out[i, j] = derivatives.jacobian[i, j]
     return code
 
 
 @arranging
 def _lay_all(sizes, work, constants):
-    """Return the bench, the arrays for its derivatives and the size in numbers."""
+    """Return the pair's arrays, the arrays for its derivatives and the size in numbers."""
     size = size_of(sizes)
-    _, bench, _, _, end = _lay(sizes, work, constants)
-    aside, end = lay_derivatives(work, end, size, bench)
-    return bench, aside, end
+    _, arrays, _, _, end = _lay(sizes, work, constants)
+    derivatives, end = lay_derivatives(work, end, size, arrays)
+    return arrays, derivatives, end
 
 
 def pair_size(sizes, given):
@@ -218,8 +218,8 @@ def pair_size(sizes, given):
 
 def pair_derivatives(sizes, work, mode, motion, jacobian, given):
     """As `fill_derivatives`, on profiles."""
-    bench, aside, _ = _lay_all(sizes, work, given.data)
-    return fill_derivatives(mode, motion, bench, aside, jacobian)
+    arrays, derivatives, _ = _lay_all(sizes, work, given.data)
+    return fill_derivatives(mode, motion, arrays, derivatives, jacobian)
 
 
 def pair_strips(sizes, given):
@@ -250,14 +250,14 @@ def pair_init(sizes, work, wheel, rail, motion, case, parameters, gauge, gauge_p
     y, z, deepest = rail_origin(whole_rail, gauge, gauge_point)
     if deepest < gauge_point:
         return 1
-    a, bench, _, _, _ = _lay(sizes, work, given.data)
+    a, arrays, _, _, _ = _lay(sizes, work, given.data)
     reset(a)
-    ledger = bench.ledger
+    ledger = arrays.ledger
     copy_rows(whole_wheel, ledger.wheel)
     copy_rows(whole_rail, ledger.rail)
-    fill_profiles(bench)
-    set_options(motion, y, z, case, parameters, bench)
-    fill(bench.workspace, bench.case[0].nu, given.data)
+    fill_profiles(arrays)
+    set_options(motion, y, z, case, parameters, arrays)
+    fill(arrays.workspace, arrays.case[0].nu, given.data)
     ledger.settings[0].start, ledger.settings[0].width = start / width, width
     return 0
 
@@ -266,10 +266,10 @@ def pair_solve(
     sizes, work, cold, mode, amount, distance, motion, case, rail, offset, total, contacts, deflected, given
 ):
     """As `solve_from`, on profiles."""
-    a, bench, _, _, _ = _lay(sizes, work, given.data)
+    a, arrays, _, _, _ = _lay(sizes, work, given.data)
     piece = memory.memory_size(size_of(sizes))
     return solve_from(
-        a, bench, piece, cold, mode, amount, distance, motion, case, rail, offset, total, contacts, deflected
+        a, arrays, piece, cold, mode, amount, distance, motion, case, rail, offset, total, contacts, deflected
     )  # fmt: skip
 
 
@@ -289,8 +289,8 @@ def pair_forget(sizes, work, given):
 
 def pair_patch(sizes, work, k, result, given):
     """As `solve_again`, on profiles."""
-    a, bench, _, _, _ = _lay(sizes, work, given.data)
-    return solve_again(a, bench, memory.memory_size(size_of(sizes)), k, result)
+    a, arrays, _, _, _ = _lay(sizes, work, given.data)
+    return solve_again(a, arrays, memory.memory_size(size_of(sizes)), k, result)
 
 
 ENTRIES: dict[str, tuple[Any, str, tuple[str, ...]]] = {

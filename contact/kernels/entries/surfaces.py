@@ -94,8 +94,8 @@ def lay_surface(work, end, numbers, n):
 
 
 @arranging
-def lay_bench(work, end, wheel, n_wheel, rail, n_rail, size, kept, constants):
-    """Lay out the bench of two surfaces from index `end` on. Return it, the index of the strips and the new end."""
+def lay_pair(work, end, wheel, n_wheel, rail, n_rail, size, kept, constants):
+    """Lay out the arrays of two surfaces from index `end` on. Return it, the index of the strips and the new end."""
     of_wheel, end = lay_surface(work, end, wheel, n_wheel)
     of_rail, end = lay_surface(work, end, rail, n_rail)
     search, end = memory.lay_surface_search(work, end, of_wheel, of_rail, size.n_samples)
@@ -104,16 +104,16 @@ def lay_bench(work, end, wheel, n_wheel, rail, n_rail, size, kept, constants):
     nothing, _ = block.matrix(work, end, N_PROFILE_ROWS, 0)
     bins, _ = block.cube(work, end, 2, len(Bin), 0)
     ledger, end = memory.lay_ledger(work, end, nothing, nothing, bins, 0)
-    bench, end = memory.lay_bench(work, end, size, kept, search, workspace, ledger)
-    return bench, at_strips, end
+    arrays, end = memory.lay_pair(work, end, size, kept, search, workspace, ledger)
+    return arrays, at_strips, end
 
 
 @arranging
-def lay_derivatives(work, end, size, bench):
-    """Lay out what the derivatives of `bench` need. Return it and the new end."""
-    search, end = memory.lay_surface_search(work, end, bench.search.wheel, bench.search.rail, size.n_samples)
-    near, end = memory.lay_beside(work, end, search, bench)
-    return memory.lay_aside(work, end, size, near)
+def lay_derivatives(work, end, size, arrays):
+    """Lay out what the derivatives of `arrays` need. Return it and the new end."""
+    search, end = memory.lay_surface_search(work, end, arrays.search.wheel, arrays.search.rail, size.n_samples)
+    near, end = memory.lay_beside(work, end, search, arrays)
+    return memory.lay_derivative_arrays(work, end, size, near)
 
 
 @arranging
@@ -142,12 +142,12 @@ def prepare_search(wheel, n_wheel, search):
 
 @arranging
 def _lay(sizes, wheel, rail, work, constants):
-    """Return the start, the bench, the index of the strips and the size in numbers. `wheel` and `rail` hold the surfaces."""
+    """Return the start, the pair's arrays, the index of the strips and the size. `wheel` and `rail`: the surfaces."""
     size, s = size_of(sizes), carray(sizes, (9,))
     n_wheel, n_rail = int(s[4]), int(s[5])
     start, _, end = lay_start(work, n_wheel + n_rail, memory.memory_size(size), 0)
-    bench, at_strips, end = lay_bench(work, end, wheel, n_wheel, rail, n_rail, size, start.trial, constants)
-    return start, bench, at_strips, end
+    arrays, at_strips, end = lay_pair(work, end, wheel, n_wheel, rail, n_rail, size, start.trial, constants)
+    return start, arrays, at_strips, end
 
 
 @arranging
@@ -158,11 +158,11 @@ def _laid(sizes, work, constants):
 
 @arranging
 def _lay_all(sizes, wheel, rail, work, constants):
-    """Return the bench, the arrays for its derivatives and the size in numbers. `wheel` and `rail` hold the surfaces."""
+    """Return the pair's arrays, the arrays for its derivatives and the size in numbers. `wheel` and `rail`: the surfaces."""
     size = size_of(sizes)
-    _, bench, _, end = _lay(sizes, wheel, rail, work, constants)
-    aside, end = lay_derivatives(work, end, size, bench)
-    return bench, aside, end
+    _, arrays, _, end = _lay(sizes, wheel, rail, work, constants)
+    derivatives, end = lay_derivatives(work, end, size, arrays)
+    return arrays, derivatives, end
 
 
 def surfaces_check(sizes, numbers, n, given):
@@ -178,8 +178,8 @@ def surfaces_size(sizes, wheel, rail, given):
 def surfaces_derivatives(sizes, work, mode, motion, jacobian, given):
     """As `pair.fill_derivatives`."""
     n_wheel = int(carray(sizes, (9,))[4])
-    bench, aside, _ = _lay_all(sizes, work, ahead(work, n_wheel), work, given.data)
-    return fill_derivatives(mode, motion, bench, aside, jacobian)
+    arrays, derivatives, _ = _lay_all(sizes, work, ahead(work, n_wheel), work, given.data)
+    return fill_derivatives(mode, motion, arrays, derivatives, jacobian)
 
 
 def surfaces_init(sizes, work, wheel, rail, motion, case, parameters, given):
@@ -188,14 +188,14 @@ def surfaces_init(sizes, work, wheel, rail, motion, case, parameters, given):
     n_wheel, n_rail = int(s[4]), int(s[5])
     copy(carray(wheel, (n_wheel,)), carray(work, (n_wheel,)))
     copy(carray(rail, (n_rail,)), carray(ahead(work, n_wheel), (n_rail,)))
-    a, bench, at_strips, _ = _laid(sizes, work, given.data)
+    a, arrays, at_strips, _ = _laid(sizes, work, given.data)
     reset(a)
     y, z = place_of(rail)
-    set_options(motion, y, z, case, parameters, bench)
-    prepare_search(wheel, n_wheel, bench.search)
-    fill(bench.workspace, bench.case[0].nu, given.data)
-    _, aside, _ = _lay_all(sizes, ahead(work, 0), ahead(work, n_wheel), work, given.data)
-    prepare_search(wheel, n_wheel, aside.bench.search)
+    set_options(motion, y, z, case, parameters, arrays)
+    prepare_search(wheel, n_wheel, arrays.search)
+    fill(arrays.workspace, arrays.case[0].nu, given.data)
+    _, derivatives, _ = _lay_all(sizes, ahead(work, 0), ahead(work, n_wheel), work, given.data)
+    prepare_search(wheel, n_wheel, derivatives.neighbour.search)
     return at_strips
 
 
@@ -203,11 +203,11 @@ def surfaces_solve(
     sizes, work, cold, mode, amount, station, rotation, motion, case, rail, offset, total, contacts, deflected, given
 ):
     """As `pair.solve_from`, for the place of the axle along the rail [m] and the angle of the wheel [rad]."""
-    a, bench, _, _ = _laid(sizes, work, given.data)
-    of_search = bench.search.motion[0]
+    a, arrays, _, _ = _laid(sizes, work, given.data)
+    of_search = arrays.search.motion[0]
     of_search.station, of_search.rotation = station, rotation + block.records(offset, 0, 1, WHEEL_OFFSET)[0][0].pitch
     piece = memory.memory_size(size_of(sizes))
-    return solve_from(a, bench, piece, cold, mode, amount, 0.0, motion, case, rail, offset, total, contacts, deflected)
+    return solve_from(a, arrays, piece, cold, mode, amount, 0.0, motion, case, rail, offset, total, contacts, deflected)
 
 
 def surfaces_accept(sizes, work, given):
@@ -224,8 +224,8 @@ def surfaces_forget(sizes, work, given):
 
 def surfaces_patch(sizes, work, k, result, given):
     """As `pair.solve_again`."""
-    a, bench, _, _ = _laid(sizes, work, given.data)
-    return solve_again(a, bench, memory.memory_size(size_of(sizes)), k, result)
+    a, arrays, _, _ = _laid(sizes, work, given.data)
+    return solve_again(a, arrays, memory.memory_size(size_of(sizes)), k, result)
 
 
 ENTRIES: dict[str, tuple[Any, str, tuple[str, ...]]] = {

@@ -1,4 +1,4 @@
-"""What the native WheelRailPair and WheelRailSurfaces share: from the rows of their tables to a bench, and back."""
+"""What the native WheelRailPair and WheelRailSurfaces share: from the rows of their tables to a pair's arrays, and back."""
 
 from __future__ import annotations
 
@@ -56,25 +56,25 @@ def sizer(table: Table) -> Callable[..., Any]:
 
 
 def parameter_setter(table: Table) -> Callable[..., Any]:
-    """Return a compiled function that copies the parameters to the bench."""
+    """Return a compiled function that copies the parameters to the pair's arrays."""
     at, rows = references(table), constant(table)
     read_case, read_motion = reader(table, "case", CASE), reader(table, "motion", MOTION)
     read_damage = reader(table, "damage_parameters", DAMAGE_PARAMETERS)
     read_rail = reader(table, "elastic_rail", ELASTIC_RAIL)
 
     @arranging
-    def set_parameters(v, origin_y, origin_z, bench):
-        motion = bench.search.motion[0]
-        read_motion(v, rows, bench.search.motion)
+    def set_parameters(v, origin_y, origin_z, arrays):
+        motion = arrays.search.motion[0]
+        read_motion(v, rows, arrays.search.motion)
         motion.tape = 0.5 * v[at.wheel_flange_back] + TAPE_FROM_FLANGE_BACK
         motion.mirror = 1.0 if v[at.side] == _RIGHT else -1.0
         motion.origin_y, motion.origin_z = origin_y, origin_z
-        read_case(v, rows, bench.case)
-        choose(int(v[at.method_normal]), int(v[at.method_tangential]), bench.case[0])
-        bench.search.case[0].G, bench.search.case[0].nu = bench.case[0].G, bench.case[0].nu
-        bench.damage_parameters[0] = _DAMAGE_PARAMETERS[0]
-        read_damage(v, rows, bench.damage_parameters)
-        read_rail(v, rows, bench.rail)
+        read_case(v, rows, arrays.case)
+        choose(int(v[at.method_normal]), int(v[at.method_tangential]), arrays.case[0])
+        arrays.search.case[0].G, arrays.search.case[0].nu = arrays.case[0].G, arrays.case[0].nu
+        arrays.damage_parameters[0] = _DAMAGE_PARAMETERS[0]
+        read_damage(v, rows, arrays.damage_parameters)
+        read_rail(v, rows, arrays.rail)
 
     return set_parameters
 
@@ -85,17 +85,17 @@ def step_solver(table: Table) -> Callable[..., Any]:
     read_case = case_reader(table)
 
     @arranging
-    def solve(values, v, piece, bench):
+    def solve(values, v, piece, arrays):
         """Solve for `v`, which are `values` as an array. `piece` is the size of the memory of a patch."""
-        read_case(v, rows, bench.case)
-        bench.case[0].speed = abs(v[at.velocity_x])
+        read_case(v, rows, arrays.case)
+        arrays.case[0].speed = abs(v[at.velocity_x])
         given, _ = block.records(values, at.pose_y, 1, GIVEN)
         offset, _ = block.records(values, at.offset_x, 1, WHEEL_OFFSET)
-        bench.offset[0] = offset[0]
+        arrays.offset[0] = offset[0]
         for k in range(MAX_PATCHES):
-            forget_forged(bench.memory[1 + k * piece : 1 + (k + 1) * piece])
+            forget_forged(arrays.memory[1 + k * piece : 1 + (k + 1) * piece])
         mode = _HEIGHT[int(v[at.load_kind]) - 1]
-        return _failure(solve_flexible(mode, max(v[at.load_normal_force], 0.0), given[0], bench))
+        return _failure(solve_flexible(mode, max(v[at.load_normal_force], 0.0), given[0], arrays))
 
     return solve
 
@@ -121,12 +121,12 @@ def reporter(table: Table) -> Callable[..., Any]:
     write_rail = writer(table, "elastic_rail", ELASTIC_RAIL)
 
     @arranging
-    def report(v, bench):
-        total = bench.total[0]
-        write(v, rows, bench.total, 0)
-        write_rail(v, rows, bench.rail, 0)
+    def report(v, arrays):
+        total = arrays.total[0]
+        write(v, rows, arrays.total, 0)
+        write_rail(v, rows, arrays.rail, 0)
         for k in range(PATCHES):
-            write_contact(v, rows, bench.contacts[k : k + 1], k)
+            write_contact(v, rows, arrays.contacts[k : k + 1], k)
         v[at.slip_ratio] = total.slip_area / total.area if total.area > 0.0 else 0.0
         v[at.power_friction] = abs(v[at.velocity_x]) * total.power
 
@@ -134,21 +134,21 @@ def reporter(table: Table) -> Callable[..., Any]:
 
 
 def deriver(table: Table) -> Callable[..., Any]:
-    """Return a compiled function that fills `derived` from the last solution of a bench (`components.PAIR_DERIVED`)."""
+    """Return a compiled function that fills `derived` from the last solution of a pair (`components.PAIR_DERIVED`)."""
     at = references(table)
 
     @arranging
-    def derive(values, v, bench, aside, derived):
+    def derive(values, v, arrays, derivatives, derived):
         given, _ = block.records(values, at.pose_y, 1, GIVEN)
-        n = derive_pair(_HEIGHT[int(v[at.load_kind]) - 1], given[0], bench, aside)
+        n = derive_pair(_HEIGHT[int(v[at.load_kind]) - 1], given[0], arrays, derivatives)
         for j in range(derived.shape[1]):
-            known = n > 0 and aside.sides[j] < 1.5  # else patches come and go
+            known = n > 0 and derivatives.sides[j] < 1.5  # else patches come and go
             if j == Moved.AMOUNT:
                 known = known and v[at.load_normal_force] > 0.0
             elif j == Moved.FRICTION:  # the jacobian scales a law of friction as a whole
-                known = known and bench.case[0].law == FrictionLaw.COULOMB
+                known = known and arrays.case[0].law == FrictionLaw.COULOMB
             for i in range(derived.shape[0]):
-                derived[i, j] = aside.jacobian[i, j] if known else math.nan
+                derived[i, j] = derivatives.jacobian[i, j] if known else math.nan
 
     return derive
 

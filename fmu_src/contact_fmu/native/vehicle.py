@@ -239,11 +239,11 @@ def _follow(v, starts, parts, contacts, w, h, given):
     last, wheel, values = contacts.last, parts.scratch.wheels[w], contacts.values[w % 2]
     patches = contacts.patches[w * MAX_PATCHES : (w + 1) * MAX_PATCHES]
     its_values, its_work = _of_side(contacts, w)
-    bench, _, _ = _arrange_pair(carray(its_values, (_N_ITS,)), its_work, given)
+    arrays, _, _ = _arrange_pair(carray(its_values, (_N_ITS,)), its_work, given)
     asked, friction, paced = parts.scratch.given[w], parts.scratch.seats[w].friction, last.limits[0] > 1.0 and h > 0.0
     near, n_before, counted = False, _n_patches(wheel), h
     if paced:
-        near = expect(last, w, asked, friction, bench, patches, contacts.sticks[w], n_before)
+        near = expect(last, w, asked, friction, arrays, patches, contacts.sticks[w], n_before)
         if near and take_expected(last, w, h, wheel):
             return int(wheel.status) if 0.0 <= wheel.status <= _WORST_STATUS else 0
         counted = count_around(last, w, h)
@@ -254,13 +254,13 @@ def _follow(v, starts, parts, contacts, w, h, given):
     code = _solve(contacts, w, given)
     if code > _WORST_STATUS:
         return code
-    n = int(bench.total[0].n_patches)
-    report_wheel(bench, n, wheel)
+    n = int(arrays.total[0].n_patches)
+    report_wheel(arrays, n, wheel)
     if paced:
         keep_solution(last, w, asked, wheel, near and n == n_before)
         for k in range(MAX_PATCHES):
-            patches[k] = bench.contacts[k]
-        contacts.sticks[w] = share_of_stick(bench.total[0])
+            patches[k] = arrays.contacts[k]
+        contacts.sticks[w] = share_of_stick(arrays.total[0])
     for i in range(_COPIED.shape[0]):
         v[starts[_COPIED[i, 1]] + w] = values[_COPIED[i, 0]]
     for i in range(_RATES.shape[0]):

@@ -16,7 +16,7 @@ from contact.core import arranging, group
 from contact.kernels import block, memory
 from contact.kernels.block import ahead
 from contact.kernels.entries.layout import fill
-from contact.kernels.entries.pair import fill_profiles, lay_bench, lay_derivatives
+from contact.kernels.entries.pair import fill_profiles, lay_derivatives, lay_pair
 from contact.kernels.geometry.prepare import facing, rail_origin, turn
 from contact.kernels.records import LEDGER
 from contact.kernels.rows import N_PROFILE_ROWS, Bin
@@ -33,7 +33,7 @@ DERIVED = tuple(map(len, PAIR_DERIVED))
 
 @group
 class Start(NamedTuple):
-    """Working memory before the bench.
+    """Working memory before the pair's arrays.
 
     It holds the warm start, the bins, the numbers of nodes that can touch, the whole wheel and the inclined rail.
     """
@@ -60,29 +60,29 @@ def _lay_start(work, piece, n_bins, resources):
 
 @arranging
 def _lay(work, end, start, counts, size, constants):
-    """Lay out the bench from index `end` on, for curves of `counts` nodes.
+    """Lay out the pair's arrays from index `end` on, for curves of `counts` nodes.
 
     Return it, the arrays for its derivatives, these as the host sees them with their index, and the total size in numbers.
     """
-    bench, _, end = lay_bench(work, end, (start.wheel, start.turned), counts, size, start.kept, start.bins, constants)
-    aside, end = lay_derivatives(work, end, size, bench)
+    arrays, _, end = lay_pair(work, end, (start.wheel, start.turned), counts, size, start.kept, start.bins, constants)
+    derivatives, end = lay_derivatives(work, end, size, arrays)
     derived, total = block.matrix(work, end, *DERIVED)
-    return bench, aside, (derived, end), total
+    return arrays, derivatives, (derived, end), total
 
 
 def _parameter_setter(table: Table) -> Callable[..., Any]:
-    """Return a compiled function that copies the parameters to the bench."""
+    """Return a compiled function that copies the parameters to the pair's arrays."""
     at, rows, set_shared = references(table), constant(table), pair_parts.parameter_setter(table)
     read_ledger = reader(table, "ledger", LEDGER)
 
     @arranging
-    def set_parameters(v, origin_y, origin_z, bench):
-        set_shared(v, origin_y, origin_z, bench)
-        bench.damage_parameters[0].wear_law = (
+    def set_parameters(v, origin_y, origin_z, arrays):
+        set_shared(v, origin_y, origin_z, arrays)
+        arrays.damage_parameters[0].wear_law = (
             int(v[at.accumulation_wear_law]) - 2
         )  # with the first item nothing accumulates
-        settings = bench.ledger.settings[0]
-        read_ledger(v, rows, bench.ledger.settings)
+        settings = arrays.ledger.settings[0]
+        read_ledger(v, rows, arrays.ledger.settings)
         settings.start = v[at.accumulation_first] / v[at.accumulation_width]
 
     return set_parameters
@@ -112,7 +112,7 @@ def layout_of(table: Table) -> Layout:
 
     @arranging
     def arrange(v, work, given):
-        """Return the bench that `model_prepare` has filled, and what belongs to its derivatives."""
+        """Return the pair's arrays that `model_prepare` has filled, and what belongs to its derivatives."""
         start, end = begin(v, work, given.resources)
         return _lay(work, end, start, (int(start.counts[0]), int(start.counts[1])), size(v), given.data)[:3]
 
@@ -150,29 +150,29 @@ def entries() -> dict[str, Callable[..., Any]]:
         if deepest < v[at.track_gauge_point]:
             return Failure.GAUGE_POINT
         counts = wheel_to - wheel_from, rail_to - rail_from
-        bench, _, _, _ = _lay(work, end, start, counts, size(v), given.data)
+        arrays, _, _, _ = _lay(work, end, start, counts, size(v), given.data)
         start.counts[0], start.counts[1] = counts
-        fill_profiles(bench)
-        fill(bench.workspace, v[at.material_poisson_ratio], given.data)
-        set_parameters(v, origin_y, origin_z, bench)
+        fill_profiles(arrays)
+        fill(arrays.workspace, v[at.material_poisson_ratio], given.data)
+        set_parameters(v, origin_y, origin_z, arrays)
         return 0
 
     def model_outputs(values, work, h, given):
         v = carray(values, (n_values,))
-        bench, _, _ = arrange(v, work, given)
-        bench.ledger.settings[0].distance = abs(v[at.velocity_x]) * h
-        failure = solve(values, v, memory.memory_size(size(v)), bench)
+        arrays, _, _ = arrange(v, work, given)
+        arrays.ledger.settings[0].distance = abs(v[at.velocity_x]) * h
+        failure = solve(values, v, memory.memory_size(size(v)), arrays)
         if failure > 0:
             return failure
-        if not math.isfinite(bench.ledger.bins.sum()):
+        if not math.isfinite(arrays.ledger.bins.sum()):
             return Failure.ENDLESS
-        report(v, bench)
-        return bench.total[0].status
+        report(v, arrays)
+        return arrays.total[0].status
 
     def model_jacobian(values, work, given):
         v = carray(values, (n_values,))
-        bench, aside, (derived, begin_derived) = arrange(v, work, given)
-        derive(values, v, bench, aside, derived)
+        arrays, derivatives, (derived, begin_derived) = arrange(v, work, given)
+        derive(values, v, arrays, derivatives, derived)
         return begin_derived
 
     def model_difference(values, reference, given):

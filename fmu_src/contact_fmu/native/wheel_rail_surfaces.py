@@ -14,7 +14,7 @@ from contact.core import arranging
 from contact.kernels import block, memory
 from contact.kernels.block import ahead
 from contact.kernels.entries.layout import fill
-from contact.kernels.entries.surfaces import is_sound, lay_bench, lay_derivatives, place_of, prepare_search
+from contact.kernels.entries.surfaces import is_sound, lay_derivatives, lay_pair, place_of, prepare_search
 from ..tables.wheel_rail_surfaces import table
 from ..variables import Table
 from . import pair_parts
@@ -36,13 +36,13 @@ def _found(resources):
 
 @arranging
 def _lay(work, given, size):
-    """Lay out the bench. Return it, and what else `wheel_rail_pair` lays after it."""
+    """Lay out the pair's arrays. Return it, and what else `wheel_rail_pair` lays after it."""
     wheel, n_wheel, rail, n_rail = _found(given.resources)
     kept, end = block.vector(work, 0, memory.pair_memory_size(memory.memory_size(size)))
-    bench, _, end = lay_bench(work, end, wheel, n_wheel, rail, n_rail, size, kept, given.data)
-    aside, end = lay_derivatives(work, end, size, bench)
+    arrays, _, end = lay_pair(work, end, wheel, n_wheel, rail, n_rail, size, kept, given.data)
+    derivatives, end = lay_derivatives(work, end, size, arrays)
     derived, total = block.matrix(work, end, *DERIVED)
-    return bench, aside, (derived, end), total
+    return arrays, derivatives, (derived, end), total
 
 
 def _differ(table: Table) -> Callable[..., Any]:
@@ -80,30 +80,30 @@ def entries() -> dict[str, Callable[..., Any]]:
             return Failure.WHEEL
         if not is_sound(rail, n_rail):
             return Failure.RAIL
-        bench, aside, _, _ = _lay(work, given, size(v))
-        fill(bench.workspace, v[at.material_poisson_ratio], given.data)
+        arrays, derivatives, _, _ = _lay(work, given, size(v))
+        fill(arrays.workspace, v[at.material_poisson_ratio], given.data)
         y, z = place_of(rail)
-        set_parameters(v, y, z, bench)
-        bench.ledger.settings[0].distance = 0.0
-        prepare_search(wheel, n_wheel, bench.search)
-        prepare_search(wheel, n_wheel, aside.bench.search)
+        set_parameters(v, y, z, arrays)
+        arrays.ledger.settings[0].distance = 0.0
+        prepare_search(wheel, n_wheel, arrays.search)
+        prepare_search(wheel, n_wheel, derivatives.neighbour.search)
         return 0
 
     def model_outputs(values, work, h, given):
         v = carray(values, (n_values,))
-        bench, _, _, _ = _lay(work, given, size(v))
-        motion = bench.search.motion[0]
+        arrays, _, _, _ = _lay(work, given, size(v))
+        motion = arrays.search.motion[0]
         motion.station, motion.rotation = v[at.pose_station], v[at.pose_rotation] + v[at.offset_pitch]
-        failure = solve(values, v, memory.memory_size(size(v)), bench)
+        failure = solve(values, v, memory.memory_size(size(v)), arrays)
         if failure > 0:
             return failure
-        report(v, bench)
-        return bench.total[0].status
+        report(v, arrays)
+        return arrays.total[0].status
 
     def model_jacobian(values, work, given):
         v = carray(values, (n_values,))
-        bench, aside, (derived, begin), _ = _lay(work, given, size(v))
-        derive(values, v, bench, aside, derived)
+        arrays, derivatives, (derived, begin), _ = _lay(work, given, size(v))
+        derive(values, v, arrays, derivatives, derived)
         return begin
 
     def model_difference(values, reference, given):

@@ -36,12 +36,12 @@ class WheelRailPairSlave(ModelSlave):
     def outputs(self, values: SlaveValues, step_size: float) -> Rows:
         """Solve for the present inputs, which are constant over the step. The first step is a cold start."""
         pair: WheelRailPair = self.made(values, self._pair)
-        memory = pair.bench.memory
+        memory = pair.arrays.memory
         before = memory.copy() if step_size > 0.0 else np.zeros_like(memory)
         memory[:] = before
         motion = [values[name] for name in _MOTION]
         speed = abs(values["velocity.x"])
-        bins = pair.bench.ledger.bins
+        bins = pair.arrays.ledger.bins
         bins[:] = np.reshape([values[name] for name in ACCUMULATED], (2, -1, BINS)) if bins.size else 0.0
         try:
             solution = pair.solve(
@@ -54,11 +54,11 @@ class WheelRailPairSlave(ModelSlave):
                 rail=_rail(values),
                 offset=WheelOffset(*(values[name] for name, *_ in OFFSET)),
             )
-            bench = pair.bench
+            arrays = pair.arrays
             rows: dict[str, Any] = {
-                **self.copied("total", lambda name: bench.total[name].item()),
-                **self.copied("elastic_rail", lambda name: bench.rail[name].item()),
-                **self.copied("contact", lambda name: bench.contacts[name][:PATCHES].tolist()),
+                **self.copied("total", lambda name: arrays.total[name].item()),
+                **self.copied("elastic_rail", lambda name: arrays.rail[name].item()),
+                **self.copied("contact", lambda name: arrays.contacts[name][:PATCHES].tolist()),
                 "slip.ratio": solution.slip_ratio,
                 "power.friction": speed * solution.power_per_metre,
             }
@@ -77,14 +77,14 @@ class WheelRailPairSlave(ModelSlave):
 
     def memory(self) -> str | None:
         """Return the warm start of the normal method, as text."""
-        return None if self.model is None else self.model.bench.memory.tobytes().hex()
+        return None if self.model is None else self.model.arrays.memory.tobytes().hex()
 
     def recall(self, memory: str | None) -> None:
         """Restore the warm start from `memory`."""
         if memory is None:
             self.model = None
         else:
-            self.made(self.values, self._pair).bench.memory[:] = np.frombuffer(bytes.fromhex(memory))
+            self.made(self.values, self._pair).arrays.memory[:] = np.frombuffer(bytes.fromhex(memory))
 
     def _pair(self, values: SlaveValues, old: WheelRailPair | None) -> WheelRailPair:
         """Return the pair with these parameters. It gets the memory of the old one."""
@@ -111,8 +111,8 @@ class WheelRailPairSlave(ModelSlave):
             conformal=values.item("patches.surface") == "Conformal",
             **_accumulation(values, wheel, rail),
         )
-        if old is not None and old.bench.memory.size == pair.bench.memory.size:
-            pair.bench.memory[:] = old.bench.memory
+        if old is not None and old.arrays.memory.size == pair.arrays.memory.size:
+            pair.arrays.memory[:] = old.arrays.memory
         return pair
 
 

@@ -186,7 +186,7 @@ class VehicleRun:
         ContactError
             If a wheel leaves its rail. The message contains the place.
         """
-        simulation, h, settings = self.simulation, self.step, self.simulation.benches.settings
+        simulation, h, settings = self.simulation, self.step, self.simulation.wheel_arrays.settings
         speed, had_piece = self.scenario.speed(self.distance), self._has_piece
         many = max(round(self.scenario.declared.recording.spacing / (speed * h)), 1)
         counts = self.distance >= self.scenario.declared.recording.settling - _ROUND
@@ -337,7 +337,7 @@ class VehicleRun:
         for number, (name, side) in enumerate(self.scenario.wheel_names):
             if number not in self._uneven:
                 both = self.histograms[name, side, "wheel"], self.histograms[name, side, "rail"]
-                fill(both, simulation.benches, number, self._distance, methods, self._options.material)
+                fill(both, simulation.wheel_arrays, number, self._distance, methods, self._options.material)
         return self.histograms
 
     def save(self) -> dict[str, Array]:

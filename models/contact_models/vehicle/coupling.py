@@ -61,7 +61,7 @@ class OpenVehicle(OwnsArrays):
     def __init__(self, simulation: Simulation) -> None:
         self._simulation = simulation
         model, state, scratch, motions = (
-            simulation.model, simulation.state, simulation.scratch, simulation.benches.motions
+            simulation.model, simulation.state, simulation.scratch, simulation.wheel_arrays.motions
         )  # fmt: skip
         self._arguments = pack(Model, model), pack(State, state), pack(Motions, motions), pack(Scratch, scratch)
         self.take_turns_with(simulation)

@@ -8,7 +8,7 @@ from contact.accumulation import MAXIMA, SUMS, Histogram
 from contact.inputs.material import Material
 from contact.instance import workspace
 from contact.kernels.memory import Ledger
-from .kernels.benches import Benches, bins
+from .kernels.wheel_arrays import WheelArrays, bins
 
 BODIES = ("wheel", "rail")
 _NAMES = (*SUMS, *MAXIMA)
@@ -23,14 +23,14 @@ def ledger(wheel: Histogram, rail: Histogram, n_strips: int) -> Ledger:
 
 def fill(
     histograms: tuple[Histogram, Histogram],
-    benches: Benches,
+    wheel_arrays: WheelArrays,
     wheel: int,
     distance: float,
     methods: set[str],
     steel: Material,
 ) -> None:
     """Replace the damage of the histograms of a wheel and its rail by that of the ledger of wheel number `wheel`."""
-    stored = bins(benches, wheel)
+    stored = bins(wheel_arrays, wheel)
     first = min(each.edges[0] for each in histograms)
     for histogram, rows in zip(histograms, stored, strict=True):
         start = round((histogram.edges[0] - first) / histogram.width)

@@ -102,7 +102,7 @@ def state_matrix(
     def restore() -> None:
         for array, before in zip(state, kept, strict=True):
             array[:] = before
-        simulation.benches.last.ages[:] = 0  # contacts are solved at every displaced state
+        simulation.wheel_arrays.last.ages[:] = 0  # contacts are solved at every displaced state
 
     def rates() -> Array:
         before = np.array([array[at] for array, at in moving])
@@ -126,7 +126,7 @@ def _linear_step(simulation: Simulation, step: float) -> Callable[[], None]:
     """Return what advances the vehicle by a step, with contacts that are linear about the present state."""
     forces, jacobians = simulation.derive_contacts()
     model, scratch = simulation.model, simulation.scratch
-    arrays = pack(Model, model), pack(State, simulation.state), simulation.benches.motions, pack(Scratch, scratch)
+    arrays = pack(Model, model), pack(State, simulation.state), simulation.wheel_arrays.motions, pack(Scratch, scratch)
     speed = float(speed_at(model.track, simulation.distance))
     given, wheels = scratch.given.view(np.float64).reshape(len(forces), -1), scratch.wheels
     middle = given.copy()

@@ -28,10 +28,10 @@ from contact.registry import DEFAULT_NORMAL, DEFAULT_TANGENTIAL
 from .assembly import Assembly, assemble
 from .declared import VehicleDeclaration
 from .kernels import motion
-from .kernels.benches import Benches, gather
 from .kernels.between import LONGEST_PACE, PACE, TOLERANCE, last_solution
 from .kernels.frames import speed_at
 from .kernels.layout import Book, Model, Scratch, State, Sum, TrackRow, scratch
+from .kernels.wheel_arrays import WheelArrays, gather
 from .notebook import of_simulation
 from .sections import RailSection, require_apart
 from .uneven import Stretch, UnevenWheels
@@ -98,7 +98,7 @@ class Simulation(OwnsArrays):
     ----------
     names : tuple of str
         Names of the bodies.
-    model, state, scratch, benches
+    model, state, scratch, wheel_arrays
         Arrays of the kernels.
     rotations : ndarray
         Angle by which each wheelset has turned [rad], -pi to pi; it decreases when rolling forward. 0 without uneven wheels
@@ -154,24 +154,26 @@ class Simulation(OwnsArrays):
             for k, (wheel, rail) in enumerate(zip(wheels, rails, strict=True))
         ]
         loads = np.repeat(made.bodies["load"][made.wheelsets], 2)
-        self.benches: Benches = gather(self._pairs, last_solution(loads, self._options.pace, self._options.tolerance))
+        self.wheel_arrays: WheelArrays = gather(
+            self._pairs, last_solution(loads, self._options.pace, self._options.tolerance)
+        )
         for name, value in members.items():
-            self.benches.cases[name] = value
+            self.wheel_arrays.cases[name] = value
         self._place(start)
         self.rotations = np.zeros(axles)
-        arrays = self.model, self.state, self.benches, self.scratch
+        parts = self.model, self.state, self.wheel_arrays, self.scratch
         self._stepper: WheelThreads | UnevenWheels
         self._uneven_memories: dict[str, Array] = {}
         if uneven or sections:
             stretches = self._stretches(wheels, rails, uneven or {}, sections)
             for k, pieces in stretches.items():
                 for number, stretch in enumerate(pieces):
-                    self._uneven_memories[f"uneven.{k}.{number}"] = stretch.pair.bench.memory
+                    self._uneven_memories[f"uneven.{k}.{number}"] = stretch.pair.arrays.memory
                     for name, value in members.items():
-                        stretch.pair.bench.case[name] = value
-            self._stepper = UnevenWheels(*arrays, stretches, self.rotations)
+                        stretch.pair.arrays.case[name] = value
+            self._stepper = UnevenWheels(*parts, stretches, self.rotations)
         else:
-            self._stepper = WheelThreads(*arrays, [pair.bench for pair in self._pairs[:threads]])
+            self._stepper = WheelThreads(*parts, [pair.arrays for pair in self._pairs[:threads]])
 
     def _pair(self, side: str, wheel: Profile, rail: Profile, ledger: Ledger) -> WheelRailPair:
         return self._solver(Pair(wheel, rail, **self._sizes(side)), ledger)
@@ -233,7 +235,7 @@ class Simulation(OwnsArrays):
         for number, i in enumerate(self.model.wheelsets):
             load = float(self.model.bodies[i]["load"])
             heights[number] = 0.5 * sum(self._height(2 * number + side, speed, load) for side in range(2))
-        motion.place(self.model, self.state, self.benches.motions, heights, float(start), speed)
+        motion.place(self.model, self.state, self.wheel_arrays.motions, heights, float(start), speed)
 
     def _height(self, wheel: int, speed: float, load: float) -> float:
         """Return the height of a wheelset at which the normal forces of one of its wheels carry the static load.
@@ -279,20 +281,20 @@ class Simulation(OwnsArrays):
     @property
     def kept(self) -> dict[str, Array]:
         """All that carries over from one step to the next, by name; not copied."""
-        last = self.benches.last
+        last = self.wheel_arrays.last
         return {
             **{f"state.{name}": array for name, array in self.state._asdict().items()},
             "forces": self.scratch.forces,
-            "memories": self.benches.memories,
-            "contacts": self.benches.contacts.view(np.float64),
-            "totals": self.benches.totals.view(np.float64),
+            "memories": self.wheel_arrays.memories,
+            "contacts": self.wheel_arrays.contacts.view(np.float64),
+            "totals": self.wheel_arrays.totals.view(np.float64),
             "wheels": self.scratch.wheels.view(np.float64),
             "asked": last.asked.view(np.float64),
             **{
                 name: getattr(last, name)
                 for name in ("answers", "drifts", "ages", "paces", "noises", "powers", "solutions", "pending")
             },
-            "pool": self.benches.pool,
+            "pool": self.wheel_arrays.pool,
             "rotations": self.rotations,
             **self._uneven_memories,
         }
@@ -313,17 +315,21 @@ class Simulation(OwnsArrays):
                 "a contact on surfaces changes along the way and has no derivatives of a steady motion: give an amplitude"
             )
         motion.prepare_contacts(
-            self.model, self.state, self.benches.motions, self.scratch, float(speed_at(self.model.track, self.distance))
+            self.model,
+            self.state,
+            self.wheel_arrays.motions,
+            self.scratch,
+            float(speed_at(self.model.track, self.distance)),
         )
         n_given = len(GIVEN.names or ())
         forces, jacobians = np.zeros((len(self._pairs), 6)), np.zeros((len(self._pairs), 6, n_given))
         for w, pair in enumerate(self._pairs):
-            given, here, case = self.scratch.given[w], self.scratch.seats[w], pair.bench.case
-            case[0] = self.benches.cases[w]
+            given, here, case = self.scratch.given[w], self.scratch.seats[w], pair.arrays.case
+            case[0] = self.wheel_arrays.cases[w]
             case["mu"], case["kinetic"], case["speed"] = here["friction"], here["kinetic"], given["vx"]
             self._require_on_rail(-1 - w if pair.solve_given(Height.GIVEN, 0.0, given) < 0 else 0)
             jacobians[w] = pair.derive_given(Height.GIVEN, given).jacobian[:6, :n_given]
-            forces[w] = [pair.bench.total[0][name] for name in ("Fx", "Fy", "Fz", "Mx", "My", "Mz")]
+            forces[w] = [pair.arrays.total[0][name] for name in ("Fx", "Fy", "Fz", "Mx", "My", "Mz")]
         return forces, jacobians
 
     @one_thread

@@ -1,7 +1,7 @@
 """Wheels that are no bodies of revolution, and rails given by slices: contacts on surfaces, one by one.
 
-Benches of surfaces have other arrays than those of profiles, so `kernels.motion.advance` cannot hold both. Python steps:
-it asks, lets every wheel answer by the kernel for its bench, and moves. Each of these is compiled.
+Pairs of surfaces have other arrays than those of profiles, so `kernels.motion.advance` cannot hold both. Python steps:
+it asks, lets every wheel answer by the kernel for its arrays, and moves. Each of these is compiled.
 """
 
 from __future__ import annotations
@@ -16,12 +16,12 @@ from contact.arrays import Array
 from contact.core import pack
 from contact.geometry.surfaces import SurfacePair
 from contact.instance.ownership import OwnsArrays, one_thread
-from contact.kernels.arrays import Bench, Motions, Search, SurfaceSearch
+from contact.kernels.arrays import Motions, PairArrays, Search, SurfaceSearch
 from contact.pair import WheelRailPair
 from .kernels import motion, wheels
-from .kernels.benches import Benches
 from .kernels.frames import speed_at
 from .kernels.layout import Axis, Book, Model, Scratch, State
+from .kernels.wheel_arrays import WheelArrays
 
 
 class Stretch(NamedTuple):
@@ -44,10 +44,10 @@ class UnevenWheels(OwnsArrays):
 
     Parameters
     ----------
-    model, state, benches, scratch
+    model, state, wheel_arrays, scratch
         Arrays of the kernels.
     stretches : mapping of int to sequence of Stretch
-        Number of a wheel and its stretches; the first one that holds its place counts. Outside of them it uses `benches`.
+        Number of a wheel and its stretches; the first one that holds its place counts. Outside of them it uses `wheel_arrays`.
     rotations : ndarray
         Angle by which each wheelset has turned [rad]; it is advanced.
 
@@ -61,17 +61,22 @@ class UnevenWheels(OwnsArrays):
         self,
         model: Model,
         state: State,
-        benches: Benches,
+        wheel_arrays: WheelArrays,
         scratch: Scratch,
         stretches: Mapping[int, Sequence[Stretch]],
         rotations: Array,
     ) -> None:
-        self._arrays = model, state, benches, scratch
+        self._arrays = model, state, wheel_arrays, scratch
         self._stretches = [tuple(stretches.get(w, ())) for w in range(scratch.wheels.size)]
         self._rotations = rotations
         self.on_surfaces = np.zeros(scratch.wheels.size, np.bool_)
         self._solvers: dict[tuple[int, Stretch | None], Callable[[], int]] = {}
-        self._moving = pack(Model, model), pack(State, state), pack(Motions, benches.motions), pack(Scratch, scratch)
+        self._moving = (
+            pack(Model, model),
+            pack(State, state),
+            pack(Motions, wheel_arrays.motions),
+            pack(Scratch, scratch),
+        )
 
     @one_thread
     def advance(self, h: float, steps: int) -> int:
@@ -95,7 +100,7 @@ class UnevenWheels(OwnsArrays):
         here = next((each for each in self._stretches[w] if each.begin <= place < each.end), None)
         self.on_surfaces[w] = here is not None
         if here is not None:
-            moved = here.pair.bench.search.motion
+            moved = here.pair.arrays.search.motion
             moved["station"], moved["rotation"] = place - here.origin, self._rotations[w // 2]
             here.surfaces.follow(place - here.origin)
         if (w, here) not in self._solvers:
@@ -104,9 +109,9 @@ class UnevenWheels(OwnsArrays):
 
     def _solver(self, w: int, here: Stretch | None) -> Callable[[], int]:
         """Return what solves the contact of wheel `w` on a stretch, or on profiles."""
-        _, _, benches, scratch = self._arrays
+        _, _, wheel_arrays, scratch = self._arrays
         if here is not None:
-            bench = pack(Bench[SurfaceSearch], here.pair.bench)
-            return lambda: int(wheels.solve_contact(bench, scratch.given[w], scratch.seats[w], scratch.wheels[w]))
-        every, rows = pack(Benches[Search], benches), pack(Scratch, scratch)
+            arrays = pack(PairArrays[SurfaceSearch], here.pair.arrays)
+            return lambda: int(wheels.solve_contact(arrays, scratch.given[w], scratch.seats[w], scratch.wheels[w]))
+        every, rows = pack(WheelArrays[Search], wheel_arrays), pack(Scratch, scratch)
         return lambda: int(wheels.follow_wheel(every, rows, w))

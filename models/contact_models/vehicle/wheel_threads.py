@@ -9,10 +9,10 @@ import numpy as np
 
 from contact.core import pack
 from contact.instance.ownership import OwnsArrays, one_thread
-from contact.kernels.arrays import Bench, Search
+from contact.kernels.arrays import PairArrays, Search
 from .kernels import motion, wheel_threads
-from .kernels.benches import Benches
 from .kernels.layout import Model, Scratch, State
+from .kernels.wheel_arrays import WheelArrays
 
 
 class WheelThreads(OwnsArrays):
@@ -20,19 +20,19 @@ class WheelThreads(OwnsArrays):
 
     Parameters
     ----------
-    model, state, benches, scratch
+    model, state, wheel_arrays, scratch
         Arrays of the kernels.
-    memories : sequence of Bench
+    memories : sequence of PairArrays
         Scratch memory of each thread.
     """
 
     def __init__(
-        self, model: Model, state: State, benches: Benches, scratch: Scratch, memories: Sequence[Bench]
+        self, model: Model, state: State, wheel_arrays: WheelArrays, scratch: Scratch, memories: Sequence[PairArrays]
     ) -> None:
-        kind = Benches[Search]
-        self._arrays = pack(Model, model), pack(State, state), pack(kind, benches), pack(Scratch, scratch)
+        kind = WheelArrays[Search]
+        self._arrays = pack(Model, model), pack(State, state), pack(kind, wheel_arrays), pack(Scratch, scratch)
         self._helpers = [
-            pack(kind, benches._replace(shared=memory, scratch=np.zeros_like(benches.scratch)))
+            pack(kind, wheel_arrays._replace(shared=memory, scratch=np.zeros_like(wheel_arrays.scratch)))
             for memory in memories[1:]
         ]
         self._n_wheels = scratch.wheels.size

@@ -151,10 +151,10 @@ def _creep_forces(contact, stiffness, bound, stick, more, ratio):
         across = min(max(along, force / max(turning, 1e-300)), stiffness)
     nx, ny = (contact.Fx / force, contact.Fy / force) if force > 0.0 else (1.0, 0.0)
     grown = force * ratio ** (1.0 - stick / 3.0) - along * (more[0] * nx + more[1] * ny)
-    aside = -across * (more[1] * nx - more[0] * ny)
-    size = math.sqrt(grown * grown + aside * aside)
+    derivatives = -across * (more[1] * nx - more[0] * ny)
+    size = math.sqrt(grown * grown + derivatives * derivatives)
     scale = min(1.0, ratio * max(bound, force) / size) if size > 0.0 else 0.0
-    return scale * (grown * nx - aside * ny), scale * (grown * ny + aside * nx)
+    return scale * (grown * nx - derivatives * ny), scale * (grown * ny + derivatives * nx)
 
 
 @kernel
@@ -164,16 +164,16 @@ def _lever(axis, x, y, z, c, s):
 
 
 @kernel
-def _predict(asked, now, friction, bench, contacts, stick, power, n, row):
+def _predict(asked, now, friction, arrays, contacts, stick, power, n, row):
     """Add to `row` the change of the loads of `n` contacts since the last solution.
 
     `now` and `asked` are the inputs of the contacts now and at the last solution, `stick` is the share of their area without
     slip, `power` that of the normal force. Return whether they have hardly moved, and the derivative of the normal force by
     the power [N]; 0 if the motion along the surface may have changed that force more.
     """
-    motion, slope, sideways = bench.search.motion[0], 0.0, 0.0
-    shear = bench.case[0].G * bench.case[0].slope
-    c11, c22, _, _ = kalker.coefficients(bench.workspace.tables.kalker, 0.0)
+    motion, slope, sideways = arrays.search.motion[0], 0.0, 0.0
+    shear = arrays.case[0].G * arrays.case[0].slope
+    c11, c22, _, _ = kalker.coefficients(arrays.workspace.tables.kalker, 0.0)
     dy, dz, droll, dyaw = now.y - asked.y, now.z - asked.z, now.roll - asked.roll, now.yaw - asked.yaw
     before, after = axle(asked.roll, asked.yaw), axle(now.roll, now.yaw)
     lx, ly, lz = after
@@ -189,13 +189,13 @@ def _predict(asked, now, friction, bench, contacts, stick, power, n, row):
         z = contact.z - asked.z + motion.radius
         across = dy - droll * z + dyaw * x - (now.rail_y - asked.rail_y)
         down = dz + droll * y - (now.rail_z - asked.rail_z)
-        deeper, aside = c * down - s * across, c * across + s * down
-        near = near and abs(deeper) < _DEEPER * contact.approach and abs(aside) < _ASIDE
+        deeper, derivatives = c * down - s * across, c * across + s * down
+        near = near and abs(deeper) < _DEEPER * contact.approach and abs(derivatives) < _ASIDE
         closer = max(1.0 + deeper / contact.approach, 0.0)
         ratio = closer**power
         if closer > 0.0:
             slope += contact.N * ratio * math.log(closer)
-        sideways += _UNCERTAIN * contact.N * abs(aside) / _ASIDE
+        sideways += _UNCERTAIN * contact.N * abs(derivatives) / _ASIDE
         before_x, before_y, before_z = _slip(asked, x, y, z)
         # the place on the wheel turns with the wheelset
         x_turned, y_turned, z_turned = x - dyaw * y, y + dyaw * x - droll * z, z + droll * y
@@ -231,10 +231,10 @@ def _predict(asked, now, friction, bench, contacts, stick, power, n, row):
 
 
 @kernel
-def expect(last, w, given, friction, bench, contacts, stick, n):
+def expect(last, w, given, friction, arrays, contacts, stick, n):
     """Fill the loads that wheel `w` is expected to have now. Return whether its `n` contacts have hardly moved.
 
-    `contacts` and `stick` are those of the last solution, `bench` has the constants of its pair. Other arguments as for
+    `contacts` and `stick` are those of the last solution, `arrays` has the constants of its pair. Other arguments as for
     `_predict`.
     """
     if last.ages[w] <= 0.0:
@@ -243,7 +243,7 @@ def expect(last, w, given, friction, bench, contacts, stick, n):
     for i in range(expected.size):
         expected[i] = last.answers[w, i] + last.ages[w] * last.drifts[w, i]
     power = _HERTZ + last.powers[w]
-    near, slope = _predict(last.asked[w], given, friction, bench, contacts, stick, power, n, expected)
+    near, slope = _predict(last.asked[w], given, friction, arrays, contacts, stick, power, n, expected)
     last.slopes[w] = slope
     return near
 

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from contact.core import entry, kernel
 from contact.kernels.arrays import Motions, Numbers, Search
-from .benches import Benches
 from .elements import pull
 from .frames import carried, drift, gyrate, lay_frames, speed_at
 from .layout import Axis, Body, Book, Model, Scratch, State, TrackFrame
+from .wheel_arrays import WheelArrays
 from .wheels import add_wheel_forces, advance_rails, count, fill_inputs, rail_energy, solve_contacts
 
 #: A normal force above this multiple of the static one is an impact.
@@ -178,22 +178,24 @@ def move(model: Model, state: State, motions: Motions, scratch: Scratch, h: floa
 
 
 @kernel
-def step(model, state, benches, scratch, h):
+def step(model, state, wheel_arrays, scratch, h):
     """Advance by `h` [s]; return 0 or the code of `solve_contacts`. Forces in `scratch` are those before the step."""
     speed = speed_at(model.track, state.books[Book.DISTANCE])
-    prepare_contacts(model, state, benches.motions, scratch, speed)
-    failed = solve_contacts(benches, scratch)
+    prepare_contacts(model, state, wheel_arrays.motions, scratch, speed)
+    failed = solve_contacts(wheel_arrays, scratch)
     if failed < 0:
         return failed
-    move(model, state, benches.motions, scratch, h, speed)
+    move(model, state, wheel_arrays.motions, scratch, h, speed)
     return 0
 
 
 @entry
-def advance(model: Model, state: State, benches: Benches[Search], scratch: Scratch, h: float, steps: int) -> int:
+def advance(
+    model: Model, state: State, wheel_arrays: WheelArrays[Search], scratch: Scratch, h: float, steps: int
+) -> int:
     """Advance by `steps` steps of `h` [s]; return 0 or the code of `solve_contacts` at the step that failed."""
     for _ in range(steps):
-        failed = step(model, state, benches, scratch, h)
+        failed = step(model, state, wheel_arrays, scratch, h)
         if failed < 0:
             return failed
     return 0

@@ -15,10 +15,10 @@ from enum import IntEnum
 
 from contact.core import COMPILING, entry, kernel
 from contact.kernels.arrays import Integers, Search
-from .benches import Benches
 from .frames import speed_at
 from .layout import Book, Model, Scratch, State
 from .motion import move, prepare_contacts
+from .wheel_arrays import WheelArrays
 from .wheels import follow_wheel
 
 
@@ -80,23 +80,23 @@ if COMPILING:
 
 
 @kernel
-def _work(benches, scratch, counters, codes):
+def _work(wheel_arrays, scratch, counters, codes):
     """Solve wheels of the list until none is left."""
     n = scratch.wheels.size
     w = _add(counters, Counter.NEXT.value, 1)
     while w < n:
-        codes[w] = follow_wheel(benches, scratch, w)
+        codes[w] = follow_wheel(wheel_arrays, scratch, w)
         _add(counters, Counter.SOLVED.value, 1)
         w = _add(counters, Counter.NEXT.value, 1)
 
 
 @entry
-def serve(benches: Benches[Search], scratch: Scratch, counters: Integers, codes: Integers) -> None:
+def serve(wheel_arrays: WheelArrays[Search], scratch: Scratch, counters: Integers, codes: Integers) -> None:
     """Solve wheels whenever a list is open, until the leader has ended."""
     n, looks = scratch.wheels.size, 0
     while _look(counters, Counter.ENDED.value) == 0:
         if _look(counters, Counter.NEXT.value) < n:
-            _work(benches, scratch, counters, codes)
+            _work(wheel_arrays, scratch, counters, codes)
             looks = 0
         looks += 1
         if looks > _PATIENCE:
@@ -104,12 +104,12 @@ def serve(benches: Benches[Search], scratch: Scratch, counters: Integers, codes:
 
 
 @kernel
-def _press_together(benches, scratch, counters, codes):
+def _press_together(wheel_arrays, scratch, counters, codes):
     """As `solve_contacts`, with the helpers: open the list, work, and wait for the last wheel."""
     n, looks = scratch.wheels.size, 0
     _set(counters, Counter.SOLVED.value, 0)
     _set(counters, Counter.NEXT.value, 0)  # opens the list
-    _work(benches, scratch, counters, codes)
+    _work(wheel_arrays, scratch, counters, codes)
     while _look(counters, Counter.SOLVED.value) < n:
         looks += 1
         if looks > _PATIENCE:
@@ -124,7 +124,7 @@ def _press_together(benches, scratch, counters, codes):
 def lead(
     model: Model,
     state: State,
-    benches: Benches[Search],
+    wheel_arrays: WheelArrays[Search],
     scratch: Scratch,
     counters: Integers,
     codes: Integers,
@@ -135,10 +135,10 @@ def lead(
     failed = 0
     for _ in range(steps):
         speed = speed_at(model.track, state.books[Book.DISTANCE])
-        prepare_contacts(model, state, benches.motions, scratch, speed)
-        failed = _press_together(benches, scratch, counters, codes)
+        prepare_contacts(model, state, wheel_arrays.motions, scratch, speed)
+        failed = _press_together(wheel_arrays, scratch, counters, codes)
         if failed < 0:
             break
-        move(model, state, benches.motions, scratch, h, speed)
+        move(model, state, wheel_arrays.motions, scratch, h, speed)
     _set(counters, Counter.ENDED.value, 1)
     return failed

@@ -5,11 +5,10 @@ from __future__ import annotations
 import math
 
 from contact.core import entry, kernel
-from contact.kernels.arrays import Bench, Given, Search, SurfaceSearch
+from contact.kernels.arrays import Given, PairArrays, Search, SurfaceSearch
 from contact.kernels.enumerations import Height, Status
 from contact.kernels.flexible import solve_flexible
 from contact.kernels.geometry.search import axle
-from .benches import Benches, bench_of
 from .between import count_around, expect, keep_solution, take_expected
 from .frames import linear, place_on, smooth
 from .layout import (
@@ -27,6 +26,7 @@ from .layout import (
     Wheel,
     Wheels,
 )
+from .wheel_arrays import WheelArrays, arrays_of
 
 
 @kernel
@@ -66,39 +66,39 @@ def fill_inputs(model, state, s, motions, scratch):
 
 
 @entry
-def solve_contact(bench: Bench[SurfaceSearch], given: Given, here: Seat, wheel: Wheel) -> int:
+def solve_contact(arrays: PairArrays[SurfaceSearch], given: Given, here: Seat, wheel: Wheel) -> int:
     """Solve the contact of one wheel for the inputs of `fill_inputs`. Fill `wheel`; return as `solve_pair`."""
-    case = bench.case[0]
+    case = arrays.case[0]
     case.mu, case.kinetic, case.speed = here.friction, here.kinetic, abs(given.vx)
-    n = solve_flexible(Height.GIVEN.value, 0.0, given, bench)
+    n = solve_flexible(Height.GIVEN.value, 0.0, given, arrays)
     if n >= 0:
-        report_wheel(bench, n, wheel)
+        report_wheel(arrays, n, wheel)
     return n
 
 
 @kernel
-def solve_wheel(benches, scratch, w):
+def solve_wheel(wheel_arrays, scratch, w):
     """Solve the contact of wheel `w`; see `solve_contact`."""
-    return solve_contact(bench_of(benches, w), scratch.given[w], scratch.seats[w], scratch.wheels[w])
+    return solve_contact(arrays_of(wheel_arrays, w), scratch.given[w], scratch.seats[w], scratch.wheels[w])
 
 
 @entry
-def follow_wheel(benches: Benches[Search], scratch: Scratch, w: int) -> int:
+def follow_wheel(wheel_arrays: WheelArrays[Search], scratch: Scratch, w: int) -> int:
     """Fill the forces of wheel `w`: from the last solution of its contact if that is near enough, else by `solve_wheel`.
 
-    ``benches.settings[w].distance`` is the distance of this step of which the damage is counted [m]. A solution counts for the
+    ``wheel_arrays.settings[w].distance`` is the distance of this step whose damage is counted [m]. A solution counts for the
     steps around it. Returns as `solve_wheel`.
     """
-    last, given, wheel, setting = benches.last, scratch.given[w], scratch.wheels[w], benches.settings[w]
+    last, given, wheel, setting = wheel_arrays.last, scratch.given[w], scratch.wheels[w], wheel_arrays.settings[w]
     if last.limits[0] <= 1.0:
-        return solve_wheel(benches, scratch, w)
-    total, n_before, rolled = benches.totals[w], int(wheel.patches), setting.distance
-    bench = bench_of(benches, w)
-    near = expect(last, w, given, scratch.seats[w].friction, bench, bench.contacts, share_of_stick(total), n_before)
+        return solve_wheel(wheel_arrays, scratch, w)
+    total, n_before, rolled = wheel_arrays.totals[w], int(wheel.patches), setting.distance
+    arrays = arrays_of(wheel_arrays, w)
+    near = expect(last, w, given, scratch.seats[w].friction, arrays, arrays.contacts, share_of_stick(total), n_before)
     if near and take_expected(last, w, rolled, wheel):
         return n_before
     setting.distance = count_around(last, w, rolled)
-    n = solve_wheel(benches, scratch, w)
+    n = solve_wheel(wheel_arrays, scratch, w)
     setting.distance = rolled
     if n >= 0:
         keep_solution(last, w, given, wheel, near and n == n_before)
@@ -106,13 +106,13 @@ def follow_wheel(benches: Benches[Search], scratch: Scratch, w: int) -> int:
 
 
 @kernel
-def solve_contacts(benches, scratch):
+def solve_contacts(wheel_arrays, scratch):
     """Fill the forces of all wheels, each by `follow_wheel`.
 
     Return 0, or minus the number, from 1 on, of the wheel whose contact has no solution.
     """
     for w in range(scratch.wheels.size):
-        if follow_wheel(benches, scratch, w) < 0:
+        if follow_wheel(wheel_arrays, scratch, w) < 0:
             return -1 - w
     return 0
 
@@ -149,23 +149,23 @@ def share_of_stick(total):
 
 
 @kernel
-def report_wheel(bench, n, wheel):
+def report_wheel(arrays, n, wheel):
     """Fill forces, power and energy of one wheel from its `n` patches."""
-    total, largest = bench.total[0], 0
+    total, largest = arrays.total[0], 0
     wheel.longitudinal, wheel.lateral, wheel.vertical = total.Fx, total.Fy, -total.Fz
     wheel.moment_x, wheel.moment_y, wheel.moment_z = total.Mx, total.My, total.Mz
     wheel.T_gamma, wheel.pmax = total.T_gamma, total.pmax
     wheel.patches, wheel.status = float(n), float(total.status)
     wheel.normal, wheel.dissipation, wheel.elastic = 0.0, 0.0, 0.0
     for c in range(n):
-        contact = bench.contacts[c]
+        contact = arrays.contacts[c]
         wheel.normal += contact.N
         wheel.elastic += ELASTIC * contact.N * contact.approach
         wheel.dissipation -= (
             contact.Fx * contact.longitudinal + contact.Fy * contact.lateral + contact.Mz * contact.spin
         )
-        largest = c if contact.N > bench.contacts[largest].N else largest
-    contact = bench.contacts[largest]
+        largest = c if contact.N > arrays.contacts[largest].N else largest
+    contact = arrays.contacts[largest]
     wheel.angle, wheel.creep_x, wheel.creep_y = contact.angle, contact.longitudinal, contact.lateral
     wheel.spin = contact.spin
 

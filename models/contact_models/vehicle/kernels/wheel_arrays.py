@@ -1,4 +1,4 @@
-"""Arrays of the contacts of all wheels: `contact.kernels.memory.Bench` of each wheel, made of shared and of own parts.
+"""Arrays of the contacts of all wheels: `contact.kernels.arrays.PairArrays` of each wheel, made of shared and of own parts.
 
 A step solves one wheel after the other, so scratch memory is shared. What carries over, and what a wheel is made of, is not.
 Arrays of different length lie in one pool, so that the kernels are the same for any number of wheels and any profiles.
@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from contact.core import Shape, arranging, kernel
 from contact.errors import ContactError
-from contact.kernels.arrays import Bench, Cases, Kind, Ledger, Matrix, Motions, Numbers, Search, Settings, Totals
+from contact.kernels.arrays import Cases, Kind, Ledger, Matrix, Motions, Numbers, PairArrays, Search, Settings, Totals
 from contact.kernels.block import part
 from contact.kernels.records import CASE, CONTACT, LEDGER, MAX_PATCHES, MOTION, TOTAL
 from contact.kernels.rows import N_LINE_ROWS, N_PROFILE_ROWS
@@ -44,10 +44,10 @@ class Size(IntEnum):
     ARC_RAIL_AT = 11
 
 
-class Benches(NamedTuple, Generic[Kind]):
-    """Parts of the benches of all wheels."""
+class WheelArrays(NamedTuple, Generic[Kind]):
+    """Parts of the arrays of all wheels."""
 
-    shared: Bench[Kind]
+    shared: PairArrays[Kind]
     cases: Cases  # one each
     motions: Motions  # one each
     settings: Settings  # one each
@@ -61,35 +61,35 @@ class Benches(NamedTuple, Generic[Kind]):
     last: LastSolution
 
 
-def gather(pairs: Sequence[WheelRailPair], last: LastSolution) -> Benches:
-    """Return the benches of pairs that differ in profiles, sides and ledgers alone. `last` holds nothing.
+def gather(pairs: Sequence[WheelRailPair], last: LastSolution) -> WheelArrays:
+    """Return the arrays of pairs that differ in profiles, sides and ledgers alone. `last` holds nothing.
 
     Raises
     ------
     ContactError
         If only some of the pairs have a ledger. All write into the scratch memory of the first one's.
     """
-    without = [k for k, pair in enumerate(pairs) if pair.bench.ledger.bins.shape[2] == 0]
+    without = [k for k, pair in enumerate(pairs) if pair.arrays.ledger.bins.shape[2] == 0]
     if 0 < len(without) < len(pairs):
         raise ContactError(f"pairs {without} of {len(pairs)} have no ledger; all or none have one")
-    n, first = len(pairs), pairs[0].bench
+    n, first = len(pairs), pairs[0].arrays
     sizes = np.zeros((n, len(Size)), np.int64)
     pool: list[Array] = []
     for size, pair in zip(sizes, pairs, strict=True):
-        bench, end = pair.bench, sum(array.size for array in pool)
-        ledger = bench.ledger
-        size[Size.WHEEL], size[Size.RAIL] = bench.search.wheel.shape[1], bench.search.rail.shape[1]
+        arrays, end = pair.arrays, sum(array.size for array in pool)
+        ledger = arrays.ledger
+        size[Size.WHEEL], size[Size.RAIL] = arrays.search.wheel.shape[1], arrays.search.rail.shape[1]
         size[Size.BINS] = ledger.bins.shape[2]
         size[Size.ROWS_WHEEL], size[Size.ROWS_RAIL] = ledger.wheel.shape[1], ledger.rail.shape[1]
         parts = (
-            bench.search.wheel, bench.search.rail, ledger.bins, ledger.wheel, ledger.wheel_arc, ledger.rail, ledger.rail_arc,
+            arrays.search.wheel, arrays.search.rail, ledger.bins, ledger.wheel, ledger.wheel_arc, ledger.rail, ledger.rail_arc,
         )  # fmt: skip
         for at, array in zip(range(Size.WHEEL_AT, Size.ARC_RAIL_AT + 1), parts, strict=True):
             size[at] = end
             pool.append(array.ravel())
             end += array.size
     most = int(sizes[:, : Size.RAIL + 1].max())
-    made = Benches(
+    made = WheelArrays(
         shared=first,
         cases=np.zeros(n, CASE),
         motions=np.zeros(n, MOTION),
@@ -104,15 +104,15 @@ def gather(pairs: Sequence[WheelRailPair], last: LastSolution) -> Benches:
         last=last,
     )
     for k, pair in enumerate(pairs):
-        made.cases[k], made.motions[k] = pair.bench.case[0], pair.bench.search.motion[0]
-        made.settings[k] = pair.bench.ledger.settings[0]
+        made.cases[k], made.motions[k] = pair.arrays.case[0], pair.arrays.search.motion[0]
+        made.settings[k] = pair.arrays.ledger.settings[0]
     return made
 
 
-def bins(benches: Benches, wheel: int) -> Array:
+def bins(wheel_arrays: WheelArrays, wheel: int) -> Array:
     """Return the bins of one wheel's ledger, shape (2, rows, bins); a view."""
-    n, at = benches.sizes[wheel, Size.BINS], benches.sizes[wheel, Size.BINS_AT]
-    return benches.pool[at : at + 2 * benches.rows * n].reshape(2, benches.rows, n)
+    n, at = wheel_arrays.sizes[wheel, Size.BINS], wheel_arrays.sizes[wheel, Size.BINS_AT]
+    return wheel_arrays.pool[at : at + 2 * wheel_arrays.rows * n].reshape(2, wheel_arrays.rows, n)
 
 
 @arranging
@@ -121,15 +121,15 @@ def _cut(pool, at, rows, columns):
 
 
 @arranging
-def _bins(benches, w):
-    size = benches.sizes[w]
-    return part(benches.pool, size[Size.BINS_AT], 2, benches.rows, size[Size.BINS])
+def _bins(wheel_arrays, w):
+    size = wheel_arrays.sizes[w]
+    return part(wheel_arrays.pool, size[Size.BINS_AT], 2, wheel_arrays.rows, size[Size.BINS])
 
 
 @kernel
-def bench_of(benches, w):
-    """Return the bench of wheel `w`."""
-    t, s, size, pool = benches.shared, benches.shared.search, benches.sizes[w], benches.pool
+def arrays_of(wheel_arrays, w):
+    """Return the arrays of wheel `w`."""
+    t, s, size, pool = wheel_arrays.shared, wheel_arrays.shared.search, wheel_arrays.sizes[w], wheel_arrays.pool
     n_wheel, n_rail = size[Size.WHEEL], size[Size.RAIL]
     placed_at = N_LINE_ROWS * n_wheel
     plane_at = placed_at + N_PROFILE_ROWS * n_rail
@@ -137,15 +137,15 @@ def bench_of(benches, w):
     search = Search(
         wheel=_cut(pool, size[Size.WHEEL_AT], N_PROFILE_ROWS, n_wheel),
         rail=_cut(pool, size[Size.RAIL_AT], N_PROFILE_ROWS, n_rail),
-        motion=benches.motions[w : w + 1],
+        motion=wheel_arrays.motions[w : w + 1],
         grid=s.grid,
         patches=s.patches,
         separations=s.separations,
-        line=_cut(benches.scratch, 0, N_LINE_ROWS, n_wheel),
-        placed=_cut(benches.scratch, placed_at, N_PROFILE_ROWS, n_rail),
+        line=_cut(wheel_arrays.scratch, 0, N_LINE_ROWS, n_wheel),
+        placed=_cut(wheel_arrays.scratch, placed_at, N_PROFILE_ROWS, n_rail),
         lobes=s.lobes,
-        wheel_plane=_cut(benches.scratch, plane_at, N_LINE_ROWS, n_wheel),
-        rail_plane=_cut(benches.scratch, rail_plane_at, N_PROFILE_ROWS, n_rail),
+        wheel_plane=_cut(wheel_arrays.scratch, plane_at, N_LINE_ROWS, n_wheel),
+        rail_plane=_cut(wheel_arrays.scratch, rail_plane_at, N_PROFILE_ROWS, n_rail),
         case=s.case,
         across=s.across,
         work=s.work,
@@ -158,23 +158,23 @@ def bench_of(benches, w):
         wheel_arc=pool[size[Size.ARC_WHEEL_AT] : size[Size.ARC_WHEEL_AT] + of_wheel],
         rail=_cut(pool, size[Size.ROWS_RAIL_AT], 2, of_rail),
         rail_arc=pool[size[Size.ARC_RAIL_AT] : size[Size.ARC_RAIL_AT] + of_rail],
-        settings=benches.settings[w : w + 1],
+        settings=wheel_arrays.settings[w : w + 1],
         rates=t.ledger.rates,
         edges=t.ledger.edges,
-        bins=_bins(benches, w),
+        bins=_bins(wheel_arrays, w),
     )
-    return Bench(
+    return PairArrays(
         search=search,
         workspace=t.workspace,
-        case=benches.cases[w : w + 1],
+        case=wheel_arrays.cases[w : w + 1],
         patch_case=t.patch_case,
         result=t.result,
-        memory=benches.memories[w],
+        memory=wheel_arrays.memories[w],
         damage_parameters=t.damage_parameters,
         damage_fields=t.damage_fields,
         damage=t.damage,
-        contacts=benches.contacts[w],
-        total=benches.totals[w : w + 1],
+        contacts=wheel_arrays.contacts[w],
+        total=wheel_arrays.totals[w : w + 1],
         ledger=ledger,
         rail=t.rail,
         roots=t.roots,
