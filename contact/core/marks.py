@@ -1,8 +1,8 @@
 """Decorators of compiled functions.
 
 All kernels are compiled ahead of time into one library, which `contact.core` finds and calls; numba is then not imported.
-With the environment variable ``CONTACT_JIT=1`` numba compiles instead what is called, when it is called. The library's builder
-sets it, and so does who works on one kernel.
+With the environment variable ``CONTACT_JIT=1`` numba compiles each kernel when it is called: set it to try a changed kernel
+without building the library. The library's builder sets it to ``build``.
 
 * ``error_model="numpy"``: no exception branches. A kernel prevents a division by zero, it does not catch it.
 * No ``fastmath``: results must not depend on the instruction set. FMUs are compared bit for bit.

@@ -294,7 +294,7 @@ class DerivativeArrays(NamedTuple, Generic[Kind]):
     `given`. `start`, `patches` and `middle` are warm start, patches and forces of the middle one, `forces` those of the last
     one. `by_creep[patch, creep]` are derivatives of the forces by the creepages, `creeps[patch, creep]` those of the creepages
     by the motion. `row` is a single row of fields. `tangents` are those of the patches that are `linear`, which is 1 or 0.
-    `sides` says for each column on which side it holds.
+    `sides` says for each column on which side of the pose it is a derivative (`pair_jacobian.BOTH_SIDES` and others).
     """
 
     neighbour: PairArrays[Kind]

@@ -10,7 +10,7 @@ from contact.kernels.enumerations import Height
 from contact.kernels.flexible import displace, reflect
 from contact.kernels.geometry.prepare import move
 from contact.kernels.geometry.settle import begin
-from contact.kernels.pair_jacobian import HEIGHT, UPWARD, derive
+from contact.kernels.pair_jacobian import HEIGHT, NO_SIDE, UPWARD, derive
 from contact.kernels.rows import Moved
 
 #: Steps of the height at first touch [m], [rad], and of the displacement of a wheel by the wheelset's motion.
@@ -45,7 +45,7 @@ def _follow_load(row, sign, derivatives):
     slope = sign * jacobian[row, Moved.Z]
     if not slope > 0.0:  # the force does not rise with the depth, so the height is not determined
         for j in range(jacobian.shape[1]):
-            derivatives.sides[j] = 2.0
+            derivatives.sides[j] = NO_SIDE
         return
     for j in range(jacobian.shape[1]):
         if j != Moved.Z and j != Moved.AMOUNT:
@@ -91,7 +91,7 @@ def _follow_springs(rail, derivatives):
     determinant = yy * zz - yz * zy
     if not abs(determinant) > 1e-9 * (abs(yy * zz) + abs(yz * zy)):
         for j in range(jacobian.shape[1]):
-            derivatives.sides[j] = 2.0
+            derivatives.sides[j] = NO_SIDE
         return
     for j in range(jacobian.shape[1]):  # the columns of the rail last, since all others need them
         if j != y and j != z:

@@ -39,8 +39,12 @@ HEIGHT, UPWARD, ROWS = 6, 7, PAIR_ROWS
 #: the contact [-], at least the first number; by the rise of a flange over its yaw, at least the second one [m]; by the lever
 #: of a rail's roll [m].
 _LEAST_SLOPE, _LEAST_RISE, _RAIL_LEVER = 0.1, 0.01, 0.04
-#: A patch of the middle pose, of a neighbour with the same patches, of one with others, or the one of the last solution.
-_MIDDLE, _NEAR, _OTHER, _SOLVED = 0, 1, 2, 3
+#: Where a patch is solved: at the pose whose derivatives are wanted, at a neighbouring pose with the same patches or with other
+#: ones; or it was solved already, at the wanted pose.
+_AT_POSE, _SAME_PATCHES, _OTHER_PATCHES, _SOLVED_BEFORE = 0, 1, 2, 3
+#: On which sides of the pose a column is a derivative (`DerivativeArrays.sides`): on both, on the side of negative steps, where
+#: patches come or go on the other one; or on none.
+BOTH_SIDES, NEGATIVE_SIDE, NO_SIDE = 0.0, -1.0, 2.0
 #: Relative steps of the coefficient of friction and of the speed.
 _SMALL = 1e-6
 
@@ -61,15 +65,15 @@ def _workspace_of(k, derivatives):
 def _press(k, place, samples, workspace, derivatives):
     """Solve the normal problem of patch k at its approach: by its tangent, or closely. Return the number of strips."""
     case, result = derivatives.neighbour.patch_case[0], derivatives.neighbour.result[0]
-    if place == _SOLVED:
+    if place == _SOLVED_BEFORE:
         return loaded_strips(workspace)
-    if place == _MIDDLE:
+    if place == _AT_POSE:
         case.tolerance = derivatives.neighbour.case[0].tolerance
         n = press_case(samples, case, workspace, result)
         derivatives.linear[k] = 1.0 if n > 0 and has_tangent(samples, case, workspace, result) else 0.0
         if n == 0 or derivatives.linear[k] > 0.0 or case.normal_family != NormalFamily.STRIP_HALFSPACE:
             return n
-    elif place == _NEAR and derivatives.linear[k] > 0.0:
+    elif place == _SAME_PATCHES and derivatives.linear[k] > 0.0:
         clear(result)
         return follow(samples, case.amount, workspace, result)
     case.tolerance = TOLERANCE
@@ -83,7 +87,7 @@ def _solve_patch(k, place, samples, workspace, derivatives):
     patch, case, result, contact = arrays.search.patches[k], arrays.patch_case[0], arrays.result[0], arrays.contacts[k]
     set_case(patch, arrays.search.motion[0], arrays.case[0], case)
     n = _press(k, place, samples, workspace, derivatives)
-    if n > 0 and place != _SOLVED:
+    if n > 0 and place != _SOLVED_BEFORE:
         roll_case(samples, n, case, workspace, result)
     pressure = pressure_wrench(workspace.strips, n)
     report(patch, case, result, pressure, contact)
@@ -232,7 +236,7 @@ def _solve_neighbour(n, holds, derivatives):
         if holds:
             patch.vx, patch.vy, patch.phi = middle.vx, middle.vy, middle.phi
         samples, workspace = _workspace_of(k, derivatives)
-        _solve_patch(k, _NEAR if holds else _OTHER, samples, workspace, derivatives)
+        _solve_patch(k, _SAME_PATCHES if holds else _OTHER_PATCHES, samples, workspace, derivatives)
 
 
 @kernel
@@ -270,8 +274,8 @@ def _rise(j, n, mirror, derivatives):
 def _derive_by_pose(j, width, rise, n, derivatives):
     """Fill column j of the jacobian with forces over the step `width`, or over minus it where patches come or go otherwise.
 
-    `derivatives.sides[j]` then is -1, and 2 where they do on both sides. The forces of patches that do so count. Along the
-    step z changes by `rise` times it.
+    Where they do so on both sides, the difference over the step is kept, with the forces of all patches, and
+    `derivatives.sides[j]` is NO_SIDE. Along the step z changes by `rise` times it.
     """
     numbers, patches, creeps = derivatives.numbers, derivatives.neighbour.search.patches, derivatives.creeps
     before, height, step, found = numbers[j], numbers[Moved.Z], width, n
@@ -282,7 +286,8 @@ def _derive_by_pose(j, width, rise, n, derivatives):
             numbers[Moved.Z] = height + rise * step
         found = _locate(derivatives)
         if found == n or attempt == 2:
-            derivatives.sides[j] = 2.0 if found != n else -1.0 * attempt
+            kept = BOTH_SIDES if attempt == 0 else NEGATIVE_SIDE
+            derivatives.sides[j] = kept if found == n else NO_SIDE
             break
     numbers[j], numbers[Moved.Z] = before, height
     if found < 0 or step == 0.0:
@@ -334,7 +339,7 @@ def derive(arrays, is_there, by_load, derivatives):
     derivatives.creeps[:, :, :] = 0.0
     derivatives.forces[:] = 0.0
     derivatives.middle[:] = 0.0
-    derivatives.sides[:] = 0.0
+    derivatives.sides[:] = BOTH_SIDES
     near.search.motion[0] = arrays.search.motion[0]
     near.case[0] = arrays.case[0]
     near.patch_case[0] = near.case[0]
@@ -349,7 +354,7 @@ def derive(arrays, is_there, by_load, derivatives):
         return n
     if arrays.memory[0] != n:
         near.memory[:] = 0.0
-    height, steepest = _solve_middle(n, _SOLVED if solved else _MIDDLE, derivatives)
+    height, steepest = _solve_middle(n, _SOLVED_BEFORE if solved else _AT_POSE, derivatives)
     # a loop over a tuple would leave an exception in the library
     for j in range(Moved.RAIL_ROLL_RATE + 1):
         if Moved.VX <= j <= Moved.SPIN or j == Moved.RAIL_ROLL_RATE:

@@ -156,7 +156,7 @@ class Cell(IntEnum):
 class Box(IntEnum):
     """Columns of `boxes`: one row for each grid, the coarse one first, then the rough and the fine ones.
 
-    The columns from COLUMNS on hold values of the search, in the first row only.
+    The columns from COLUMNS on describe the whole search, not one grid. Only their first row is used.
     """
 
     X = 0
@@ -227,7 +227,8 @@ class Vector(IntEnum):
     CHANGES = 27  # first of DEPTH rows: changes of the residual
     INSIDE = 30  # in the end strips: inner end of the bracket of the panel's end
     OUTSIDE = 31  # outer end of the bracket
-    END = 32  # in the end strips: pressure, tension negative; then the weight of the rule for a peak at the end
+    # pressure of an end strip, negative where it would have to pull; `ends.end_move` replaces it by the weight of its rule
+    END = 32
     OFFSET = 33  # centre of the strip along x minus the line of least gap [m]
     DIFFERENCE = 34  # displacement at the leading minus that at the trailing end of the strip [m]
     OFFSET_R = 35  # residual of the offset [m]

@@ -5,6 +5,7 @@ fill four blocks instead of six, and their shapes are found once. Each copy has 
 """
 
 import math
+from enum import IntEnum
 
 from contact.core import kernel
 from contact.kernels.enumerations import FrictionLaw, TangentialFamily
@@ -19,6 +20,16 @@ from contact.kernels.tangential.stick_zone import add_zone
 
 #: Number of copies: one for each creepage.
 COPIES = 3
+
+
+class _Borne(IntEnum):
+    """What a strip of a copy bears, in rows that its march has read before."""
+
+    FX = Strip.TO_X
+    FY = Strip.TO_Y
+    MZ = Strip.TO_PHI
+    POWER = Strip.TO_EXPONENT
+    WORK = Strip.STIFFNESS
 
 
 @kernel
@@ -44,7 +55,7 @@ def _copy_with(n, copy, vx, vy, phi, strips):
 def roll_together(n, creepage, spin, case, workspace):
     """Roll `n` strips with one more `creepage` along x, in copy 0, along y, in copy 1, or `spin` [1/m], in copy 2.
 
-    The rows from TO_X on then hold what each strip bears: Fx, Fy, Mz, and in the two after them slip power and work.
+    The rows of `_Borne` then hold the forces of each strip.
     """
     strips, elements, lanes = workspace.strips, workspace.rule.elements, workspace.space.lanes
     set_rolling(strips, n, case)
@@ -63,8 +74,8 @@ def roll_together(n, creepage, spin, case, workspace):
             i = block + l
             power, work = energy(strips, i, l, lanes)
             Fx, Fy, Mz = forces_of(strips, i, l, lanes)
-            strips[Strip.TO_X, i], strips[Strip.TO_Y, i], strips[Strip.TO_PHI, i] = Fx, Fy, Mz
-            strips[Strip.TO_EXPONENT, i], strips[Strip.STIFFNESS, i] = power, work
+            strips[_Borne.FX, i], strips[_Borne.FY, i], strips[_Borne.MZ, i] = Fx, Fy, Mz
+            strips[_Borne.POWER, i], strips[_Borne.WORK, i] = power, work
     for i in range(n):
         strips[Strip.ASPECT, i] = math.exp(strips[Strip.ASPECT, i])  # as `roll_case` leaves it
 
@@ -74,9 +85,9 @@ def sum_copy(n, copy, strips):
     """Return force (Fx, Fy), moment and power per metre rolled of one copy, after `roll_together`."""
     Fx, Fy, Mz, power, work = 0.0, 0.0, 0.0, 0.0, 0.0
     for i in range(copy * n, (copy + 1) * n):
-        Fx += strips[Strip.TO_X, i]
-        Fy += strips[Strip.TO_Y, i]
-        Mz += strips[Strip.TO_PHI, i]
-        power += strips[Strip.TO_EXPONENT, i]
-        work += strips[Strip.STIFFNESS, i]
+        Fx += strips[_Borne.FX, i]
+        Fy += strips[_Borne.FY, i]
+        Mz += strips[_Borne.MZ, i]
+        power += strips[_Borne.POWER, i]
+        work += strips[_Borne.WORK, i]
     return Fx, Fy, Mz, slip_factor(power, work) * power

@@ -50,7 +50,7 @@ class Lane(Row):
 
 
 class _Input(Row):
-    """Inputs of the set-up, in rows that the march writes before it reads them."""
+    """Inputs of the set-up. Their rows are scratch of the march, which needs nothing of what stood there."""
 
     HALF = Now.X
     AT = Now.Y

@@ -17,6 +17,7 @@ from contact.kernels.entries.layout import forget_forged
 from contact.kernels.enumerations import FrictionLaw, Height, NoAnswer
 from contact.kernels.flexible import solve_flexible
 from contact.kernels.pair_conditions import derive_pair
+from contact.kernels.pair_jacobian import NO_SIDE
 from contact.kernels.records import (
     CASE,
     CONTACT,
@@ -142,7 +143,7 @@ def deriver(table: Table) -> Callable[..., Any]:
         given, _ = block.records(values, at.pose_y, 1, GIVEN)
         n = derive_pair(_HEIGHT[int(v[at.load_kind]) - 1], given[0], arrays, derivatives)
         for j in range(derived.shape[1]):
-            known = n > 0 and derivatives.sides[j] < 1.5  # else patches come and go
+            known = n > 0 and derivatives.sides[j] != NO_SIDE
             if j == Moved.AMOUNT:
                 known = known and v[at.load_normal_force] > 0.0
             elif j == Moved.FRICTION:  # the jacobian scales a law of friction as a whole

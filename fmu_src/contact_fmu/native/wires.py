@@ -43,7 +43,7 @@ def references(table: Table) -> Any:
 
 
 def constant(table: Table) -> np.ndarray:
-    """Return the same as an array of one record `places`."""
+    """Return `numbers` of a table, which compiled code reads by their names: an array of one record `places`."""
     return numbers(table).view(places(table))
 
 

@@ -69,8 +69,7 @@ typedef struct {
     Use used[MOST_USES];
 } Variable;
 
-/* First the variables in `values`, then those that accumulate, then fields and time. In FMI 2.0 each element of an array is a
-@ state: value references of the state and of its derivative, and its nominal value. */
+/* A continuous state of model exchange: value references of the state and of its derivative, and its nominal value. */
 typedef struct {
     int64_t value, derivative;
     double nominal;

@@ -77,7 +77,7 @@ class LastSolution(NamedTuple):
     slopes: Numbers  # derivative of the expected normal force by the power [N]
     loads: Numbers  # static load [N]
     solutions: Numbers  # their number so far
-    pending: Numbers  # what `count_around` has not counted yet; negative where it is counted ahead
+    pending: Numbers  # amount of past steps that is not counted yet, less that of coming steps that is (`count_around`)
     limits: Numbers  # largest of `paces` (1: every step is a solution), and tolerance of a force over the static load
 
 
