@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from contact.version import __version__
+
 TITLE = "wheelrail-contact: non-elliptic wheel-rail contact, creep forces and damage"
 
 _BIBTEX = """\
@@ -34,6 +36,4 @@ def cite() -> str:
     >>> print(contact.cite().splitlines()[0])
     @software{wheelrail_contact,
     """
-    from contact import __version__
-
     return _BIBTEX.format(title=TITLE, version=__version__)

@@ -18,6 +18,7 @@ from contact.compile import c_tables
 from contact.compile.emit import data_as_ir, refuse_the_rest
 from contact.compile.objects import only
 from contact.core import library
+from contact_fmu.archive import digest
 from contact_fmu.native import kinds, systems
 
 TRIPLE = "wasm32-unknown-unknown"
@@ -38,7 +39,7 @@ def _object(module: Any) -> bytes:
 
 def main() -> None:
     """Write kernels.o and data.o into the folder that the command line names."""
-    kept = systems.kernels() / f"wasm32-{systems.digest(Path(__file__))}"
+    kept = systems.kernels() / f"wasm32-{digest(Path(__file__))}"
     with library.locked(kept):
         if not kept.is_dir():
             with tempfile.TemporaryDirectory(dir=kept.parent) as made:

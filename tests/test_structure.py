@@ -22,11 +22,15 @@ def parts_of(path: Path) -> tuple[str, ...]:
     return parts[1:] if parts[0] in ("fmu_src", "models") else parts
 
 
-def imports(path: Path, inner: bool = True) -> Iterator[str]:
-    """Yield the full names that a file imports, `a.b.c` for `from a.b import c`; without `inner` not those of functions."""
+def imports(path: Path) -> Iterator[str]:
+    """Yield the full names that a file imports, `a.b.c` for `from a.b import c`, in functions too."""
+    yield from imported(ast.parse(path.read_text(encoding="utf-8")), path)
+
+
+def imported(tree: ast.AST, path: Path) -> Iterator[str]:
+    """Yield the full names that a part of the file `path` imports."""
     package = parts_of(path)[:-1]
-    tree = ast.parse(path.read_text(encoding="utf-8"))
-    for node in ast.walk(tree) if inner else tree.body:
+    for node in ast.walk(tree):
         if isinstance(node, ast.Import):
             yield from (alias.name for alias in node.names)
         elif isinstance(node, ast.ImportFrom):
@@ -146,9 +150,22 @@ def test_imports_are_found(line, name, tmp_path, monkeypatch):
     assert list(imports(path)) == [name]
 
 
-def fixed_imports(path: Path) -> Iterator[str]:
-    """Yield what a file imports when it is imported itself, and by a string anywhere."""
-    yield from imports(path, inner=False)
+#: Imports inside functions that close a circle, and why.
+CLOSING = {
+    ("contact.core.calls", "contact.core.compiled"),  # only where numba compiles: without it, numba is not there
+    ("contact.inp.case", "contact.inp.run"),  # `Case.solve` stands for `contact.inp.solve([case])`
+}
+
+
+def imports_to_run(path: Path) -> Iterator[str]:
+    """Yield what a file imports, in functions too and by strings, but not for types alone."""
+    for_types = {
+        name
+        for node in ast.parse(path.read_text(encoding="utf-8")).body
+        if isinstance(node, ast.If) and ast.unparse(node.test) == "TYPE_CHECKING"
+        for name in imported(node, path)
+    }
+    yield from (name for name in imports(path) if name not in for_types)
     for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
         if isinstance(node, ast.Call) and ast.unparse(node.func).endswith("import_module"):
             yield from (word.value for word in ast.walk(node) if isinstance(word, ast.Constant))
@@ -176,12 +193,16 @@ def circle(modules: dict[str, set[str]]) -> list[str]:
 
 
 def test_no_import_closes_a_circle():
-    """Nor does one by a string, `import_module("contact.plot")`, which import-linter does not see."""
+    """Nor does one in a function or by a string, `import_module("contact.plot")`, which import-linter does not see."""
     modules = {}
     for path in sources("contact", "fmu_src", "models"):
         parts = parts_of(path)
         name = ".".join(parts[:-1] if path.stem == "__init__" else parts)
-        modules[name] = {module for one in fixed_imports(path) if (module := module_of(one)) != name} - {""}
+        modules[name] = {module for one in imports_to_run(path) if (module := module_of(one)) != name} - {""}
+    assert all(module in modules[name] for name, module in CLOSING)
+    for name, module in CLOSING:
+        assert circle(modules) != []
+        modules[name].discard(module)
     assert circle(modules) == []
 
 
@@ -191,7 +212,7 @@ def test_a_circle_by_a_string_is_found(tmp_path, monkeypatch):
     one, other = tmp_path / "tests" / "one.py", tmp_path / "tests" / "other.py"
     one.write_text("from tests.other import x")
     other.write_text('def f():\n    return import_module("tests.one")')
-    assert circle({f"tests.{path.stem}": set(map(module_of, fixed_imports(path))) for path in (one, other)})
+    assert circle({f"tests.{path.stem}": set(map(module_of, imports_to_run(path))) for path in (one, other)})
 
 
 def test_no_source_in_c_and_javascript_is_longer_than_400_lines():

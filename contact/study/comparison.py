@@ -14,6 +14,7 @@ from contact.study.pairs import REFERENCE, Pair
 from contact.study.report import Report
 from contact.study.row import Row
 from contact.study.table import Table, tables_of
+from contact.version import __version__
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -95,8 +96,6 @@ class Comparison(Report):
 
     def json(self) -> str:
         """Return all results without fields as JSON, in SI units, under the names of the Python API."""
-        from contact import __version__
-
         cases = [
             {
                 "name": case.name,
@@ -118,8 +117,6 @@ class Comparison(Report):
     @property
     def about(self) -> list[str]:
         """Paragraphs of explanation for the tables."""
-        from contact import __version__
-
         found = [
             f"wheelrail-contact {__version__}. Forces act on the wheel, in the contact frame: x in the rolling direction, y to "
             "the right, z into the rail. Times are the least of several warm solves on the machine that wrote this page."

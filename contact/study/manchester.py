@@ -29,6 +29,7 @@ from contact.study.pairs import REFERENCE, RESOLUTION, SELECTION, Pair
 from contact.study.report import Report
 from contact.study.row import Row
 from contact.study.table import Table, number, percent
+from contact.version import __version__
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -187,8 +188,6 @@ class Manchester(Report):
     @property
     def about(self) -> list[str]:
         """Paragraphs of explanation for the tables."""
-        from contact import __version__
-
         return [
             f"wheelrail-contact {__version__} compared with CONTACT (Apache-2.0; 25.1, rev 2707, and the examples of rev "
             "2447). S1002 on UIC 60 1:40: a wheelset on straight track, displaced and yawed by 2.4 mrad per millimetre, 10 kN "

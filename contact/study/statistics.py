@@ -24,6 +24,7 @@ from contact.study.pairs import RESOLUTION
 from contact.study.reference import reference_forces, separation_of
 from contact.study.report import Report
 from contact.study.table import Table, brief
+from contact.version import __version__
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -142,8 +143,6 @@ class Statistics(Report):
 
     def json(self) -> str:
         """Return errors by method and class, and times, as JSON."""
-        from contact import __version__
-
         content = {
             "version": __version__,
             "cases": int(self.design.number.size),
@@ -158,8 +157,6 @@ class Statistics(Report):
     @property
     def about(self) -> list[str]:
         """Paragraphs of explanation for the tables."""
-        from contact import __version__
-
         return [
             f"wheelrail-contact {__version__}. Cases of Vollebregt, Iwnicki, Xie and Shackleton (2012): five ellipses, spin "
             "chi, size m and direction of the creepage. Errors are against our half space with "

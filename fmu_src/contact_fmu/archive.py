@@ -1,7 +1,8 @@
-"""Write FMU files, which are zip archives."""
+"""Write FMU files, which are zip archives, and hash the files from which they are made."""
 
 from __future__ import annotations
 
+import hashlib
 import os
 import zlib
 from collections.abc import Iterable, Mapping
@@ -10,6 +11,16 @@ from tempfile import NamedTemporaryFile
 from zipfile import ZIP_DEFLATED, BadZipFile, ZipFile, ZipInfo
 
 from contact.errors import ContactError
+
+_CHECKOUT = Path(__file__).parents[2]
+
+
+def digest(*paths: Path) -> str:
+    """Return a hash of the content of files of the checkout."""
+    content = hashlib.sha256()
+    for path in sorted(paths):
+        content.update(path.relative_to(_CHECKOUT).as_posix().encode() + b"\0" + path.read_bytes())
+    return content.hexdigest()[:12]
 
 
 def write(path: Path, files: Iterable[tuple[str, bytes]]) -> Path:

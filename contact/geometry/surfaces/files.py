@@ -21,7 +21,7 @@ import re
 from collections.abc import Callable, Iterator, Sequence
 from os import PathLike
 from pathlib import Path
-from typing import Any, Literal, NamedTuple, TypeVar
+from typing import TYPE_CHECKING, Any, Literal, NamedTuple, TypeVar
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -30,11 +30,14 @@ from contact.arrays import Array
 from contact.errors import ContactError, ProfileWarning, warn
 from contact.geometry.files import UNITS
 from contact.geometry.formats import Choice, columns, simpack
-from contact.geometry.surfaces.surface import MOST_SLICES, RailSurface, WheelSurface
+from contact.geometry.surfaces.slices import MOST_SLICES
 from contact.reading.text import lines_of
 
-Rail = TypeVar("Rail", bound=RailSurface)
-Wheel = TypeVar("Wheel", bound=WheelSurface)
+if TYPE_CHECKING:
+    from contact.geometry.surfaces.surface import RailSurface, WheelSurface
+
+Rail = TypeVar("Rail", bound="RailSurface")
+Wheel = TypeVar("Wheel", bound="WheelSurface")
 
 _RAIL, _WHEEL = ".prr", ".prw"
 

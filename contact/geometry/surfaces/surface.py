@@ -13,9 +13,10 @@ from numpy.typing import ArrayLike
 from contact.arrays import Array, as_array
 from contact.errors import ContactError, require_number
 from contact.geometry.shape import Profile
+from contact.geometry.surfaces import files
 from contact.geometry.surfaces.deviation import Deviation
 from contact.geometry.surfaces.sheet import SplineSheet
-from contact.geometry.surfaces.slices import MOST_SLICES, SPACING, Slice, connect, positions
+from contact.geometry.surfaces.slices import SPACING, Slice, connect, positions
 
 _FULL = 2.0 * math.pi
 #: Slices of a roller on both sides of its axis, and [m] how far they reach at most.
@@ -145,8 +146,6 @@ class RailSurface(_Surface):
     @classmethod
     def read(cls, path: str | PathLike[str], **options: Any) -> Self:
         """Return the rail in a file of slices (.slcs) of CONTACT. See `contact.geometry.surfaces.files.read_rail`."""
-        from contact.geometry.surfaces import files
-
         return files.read_rail(path, cls, **options)
 
 
@@ -232,8 +231,6 @@ class WheelSurface(_Surface):
     @classmethod
     def read(cls, path: str | PathLike[str], **options: Any) -> Self:
         """Return the wheel in a file of slices (.slcw) of CONTACT. See `contact.geometry.surfaces.files.read_wheel`."""
-        from contact.geometry.surfaces import files
-
         return files.read_wheel(path, cls, **options)
 
     @property
@@ -259,6 +256,3 @@ def _require_slices(slices: Sequence[Slice], kind: str) -> None:
     for k, one in enumerate(slices):
         if isinstance(one, Profile):
             _require_kind(one, kind, f"slices[{k}]")
-
-
-__all__ = ["MOST_SLICES", "RailSurface", "WheelSurface"]

@@ -10,12 +10,13 @@ this machine (`contact.core.library`). The folder has
 
 from __future__ import annotations
 
-import hashlib
 from collections.abc import Callable, Sequence
 from pathlib import Path
 from shutil import copy
 
 from contact.core import library
+from ..archive import digest
+from ..python import entry
 from .kinds import KINDS, names
 
 _HERE = Path(__file__).parent
@@ -110,18 +111,9 @@ def kernels(say: Callable[[str], None] = print) -> Path:
     return library.build(made, "--systems")
 
 
-def digest(*paths: Path) -> str:
-    """Return a hash of the content of files of the checkout."""
-    content = hashlib.sha256()
-    for path in sorted(paths):
-        content.update(path.relative_to(_ROOT).as_posix().encode() + b"\0" + path.read_bytes())
-    return content.hexdigest()[:12]
-
-
 def _link(compiled: Path, made: Path, systems: Sequence[str], say: Callable[[str], None]) -> None:
     try:
         from contact.compile.linking import link
-        from ..python import entry
         from .headers import HEADERS
         from .licences import licences
     except ModuleNotFoundError as error:

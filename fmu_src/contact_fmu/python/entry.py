@@ -8,12 +8,14 @@ from __future__ import annotations
 from pathlib import Path
 
 from contact.core import library
-from ..native import systems
+from ..archive import digest
 
 #: System → name of the file, among the libraries of all systems.
 FILES = {"linux64": "libpythonfmu-entry.so", "win64": "pythonfmu-entry.dll"}
 _HERE = Path(__file__).parent / "c"
-_LOCATION = systems.WRAPPER[0].parent / "location.h"
+_LOCATION = Path(__file__).parents[1] / "native" / "c" / "location.h"
+#: The libraries of an installed package.
+_INSTALLED = library.INSTALLED.parents[1]
 
 
 def libraries() -> dict[str, bytes]:
@@ -24,13 +26,11 @@ def libraries() -> dict[str, bytes]:
     ImportError
         If they are neither installed nor can be built here.
     """
-    if all((systems.INSTALLED / system / name).is_file() for system, name in FILES.items()):
-        made = systems.INSTALLED
+    if all((_INSTALLED / system / name).is_file() for system, name in FILES.items()):
+        made = _INSTALLED
     else:
-        made = (
-            library.cache_folder()
-            / f"{library.PREFIX}entry-{systems.digest(_LOCATION, Path(__file__), *_HERE.iterdir())}"
-        )
+        name = f"{library.PREFIX}entry-{digest(_LOCATION, Path(__file__), *_HERE.iterdir())}"
+        made = library.cache_folder() / name
         with library.locked(made):
             build([system for system, name in FILES.items() if not (made / system / name).is_file()], made)
     return {system: (made / system / name).read_bytes() for system, name in FILES.items()}
