@@ -192,12 +192,6 @@ def test_extreme_surfaces_leave_no_nan(tangential):
             assert all(map(math.isfinite, numbers(s)))
 
 
-@pytest.mark.parametrize("options", [{"tilt": 1.1e3}, {"tilt": 0.0, "rolling": -1e4}])
-def test_surfaces_beyond_their_range_are_refused(options):
-    with pytest.raises(contact.ContactError, match=r"is outside the allowed range \[-1000, 1000\]"):
-        bent(**options)
-
-
 def test_methods_without_conformal_contact_are_refused():
     for call in (contact.solve, contact.forces):
         with pytest.raises(contact.ContactError, match="is only for a plane contact"):

@@ -38,16 +38,3 @@ def test_scalars_give_scalars_and_no_contact_is_a_valid_result(ellipse):
     assert none.Fx.shape == ()
     assert none.status == contact.Status.NO_CONTACT
     assert (none.Fx, none.slip_ratio) == (0.0, 0.0)
-
-
-@pytest.mark.parametrize(("arguments", "message"), [
-    ({"load": [1.0, -2.0]}, r"load\[1\] = -2 is outside the allowed range \[0, inf\["),
-    ({"load": [1.0, np.nan]}, r"load\[1\] = nan"),
-    ({"load": 1.0, "friction": [[0.1], [-1.0]]}, r"friction\[1, 0\] = -1"),
-    ({"load": [1.0, 2.0], "friction": [0.1, 0.2, 0.3]}, r"do not broadcast: \(2,\)"),
-    ({}, "exactly one"),
-    ({"load": "heavy"}, "load = 'heavy' is not a number"),
-])  # fmt: skip
-def test_bad_input_is_named(arguments, message, ellipse):
-    with pytest.raises(contact.ContactError, match=message):
-        contact.forces(ellipse, contact.Creepage(), **arguments)

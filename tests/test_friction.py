@@ -101,31 +101,6 @@ def test_a_vanishing_load_gives_finite_forces(tangential, load):
         assert all(map(math.isfinite, (sol.Fx, sol.Fy, sol.Mz, sol.power_per_metre, sol.slip_area)))
 
 
-@pytest.mark.parametrize(
-    ("options", "message"),
-    [
-        ({"static": -0.1}, "friction.static = -0.1 is outside the allowed range [0, 1e+06]"),
-        ({"static": 0.3, "half_speed": 0.0}, "friction.half_speed = 0 is outside the allowed range ]0, inf["),
-        ({"static": 0.3, "law": "stribeck"}, "friction.law = 'stribeck' is unknown; allowed: coulomb, linear"),
-        (
-            {"static": 0.3, "velocity": "mean"},
-            "friction.velocity = 'mean' is unknown; allowed: global, local, greatest",
-        ),
-        ({"static": 0.3, "k_A": 0.0}, "friction.k_A = 0 is outside the allowed range ]0, 1]"),
-        ({"static": 0.3, "slope": 1.2}, "friction.slope = 1.2 is outside the allowed range ]0, 1]"),
-    ],
-)
-def test_bad_values_are_refused_by_name(options, message):
-    with pytest.raises(contact.ContactError) as error:
-        Friction(**options)
-    assert str(error.value).startswith(message)
-
-
-def test_the_half_space_refuses_a_slope():
-    with pytest.raises(contact.ContactError, match=r"friction.slope = 0.5: tangential = 'halfspace'"):
-        solve((1e-3, 0.0, 0.0), friction=Friction(0.3, slope=0.5), normal="halfspace", tangential="halfspace")
-
-
 FIELDS = [name for name in TANGENTIAL if contact.methods().tangential[name].fields]
 LOCAL = ["local", "greatest"]
 #: Partial slip, full slip, stick after slip.

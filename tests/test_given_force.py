@@ -157,21 +157,6 @@ def test_a_friction_law_and_a_curved_surface_work_too(method):
     assert (found.Fx, found.Fy) == pytest.approx(force, abs=1.0)
 
 
-@pytest.mark.parametrize(
-    ("force", "message"),
-    [
-        (math.nan, "force = nan is not finite"),
-        ("1e3", "force = '1e3' is not a number"),
-        ((None, None), "is not a number or a pair"),
-        ((1.0, 2.0, 3.0), "is not a number or a pair"),
-        ((1.0, math.inf), "force = inf is not finite"),
-    ],
-)
-def test_bad_forces_are_refused(force, message):
-    with pytest.raises(contact.ContactError, match=message):
-        contact.solve(SEPARATION, contact.Creepage(), load=LOAD, force=force)
-
-
 def test_a_root_is_found_over_flats_and_jumps():
     for function, true in (
         (lambda x: max(min(x - 3.0, 1.0), -1.0), 3.0),

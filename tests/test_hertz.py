@@ -69,16 +69,3 @@ def test_line_contact_limit():
     # peak pressure of a very long ellipse over its middle: p0 = a E*/(2R), R = 1/(2A) (theory.md 1.1)
     line = contact.hertz(1.0, 1e-7, load=5e4)
     assert line.p0 == pytest.approx(line.a * contact.STEEL.contact_modulus, rel=2e-5)
-
-
-@pytest.mark.parametrize(("A", "B", "arguments", "name"), [
-    (0.0, 1.0, {"load": 1.0}, "A"),
-    (1.0, -1.0, {"load": 1.0}, "B"),
-    (1.0, 1.0, {"load": math.nan}, "load"),
-    (1.0, 1.0, {"approach": -1.0}, "approach"),
-    (1.0, 1.0, {}, "exactly one"),
-    (1.0, 1.0, {"load": 1.0, "approach": 1.0}, "exactly one"),
-])  # fmt: skip
-def test_bad_input_is_named(A, B, arguments, name):
-    with pytest.raises(contact.ContactError, match=name):
-        contact.hertz(A, B, **arguments)

@@ -182,21 +182,3 @@ def test_extreme_values_leave_no_nan(tangential):
                 for f in (friction, replace(friction, law="linear", velocity="greatest", kinetic=0.0)):
                     sol = solve(creepage, f, speed, tangential=tangential, throw=False)
                     assert all(map(math.isfinite, (sol.Fx, sol.Fy, sol.Mz, sol.slip_area)))
-
-
-@pytest.mark.parametrize(
-    ("options", "message"),
-    [
-        ({"hot_factor": 1.1}, "friction.hot_factor = 1.1 is outside the allowed range [0, 1]"),
-        ({"temperature_range": 0.0}, "friction.temperature_range = 0 is outside the allowed range ]0, 100000]"),
-        (
-            {"reference_temperature": -1.0},
-            "friction.reference_temperature = -1 is outside the allowed range [0, 100000]",
-        ),
-        ({"background_temperature": math.nan}, "friction.background_temperature = nan"),
-    ],
-)
-def test_bad_values_are_refused_by_name(options, message):
-    with pytest.raises(contact.ContactError) as error:
-        Friction(0.3, **options)
-    assert str(error.value).startswith(message)

@@ -8,7 +8,7 @@ import numpy as np
 
 from contact.errors import ContactError, require_number
 from contact.geometry.records import Irregularity, Pose, Velocity
-from contact.inputs.options import RADIUS, REFERENCE_SPEED
+from contact.inputs.options import MEMBERS, RADIUS, REFERENCE_SPEED
 from contact.inputs.plausibility import USUAL, doubt_value
 from contact.instance.ownership import OwnsArrays, one_thread
 from contact.kernels.enumerations import Height, NoAnswer
@@ -90,8 +90,8 @@ class Posed(OwnsArrays):
     def set_way(self, station: float, rotation: float) -> None:
         """Set the position along the rail [m] and the angle of the wheel [rad] for the search."""
         motion = self.space.motion
-        motion["station"][0] = require_number("station", station)
-        motion["rotation"][0] = require_number("rotation", rotation)
+        motion["station"][0] = MEMBERS["pair_input"]["station"].require("station", station)
+        motion["rotation"][0] = MEMBERS["pair_input"]["rotation"].require("rotation", rotation)
 
     def _is_usual(self, pose: Pose, velocity: Velocity | None, load: float | None) -> bool:
         """Return whether `doubt` surely finds nothing. It asks all at once, since this is done at every call."""

@@ -1,7 +1,5 @@
 """Fatigue below the surface over a profile: Basquin's line, one contact, sums, sides, errors."""
 
-import math
-
 import numpy as np
 import pytest
 
@@ -69,22 +67,6 @@ def test_the_command_line():
     assert found["passages"] == pytest.approx(1e6 * (3e8 / found["dang_van"]["value"]) ** 8, rel=1e-9)
     assert "passages to failure" in call(*words).stdout
     assert "endurance.limit = 0 is outside" in call(*words[:-3], 0, 8, 1e6, code=2).stderr
-
-
-@pytest.mark.parametrize(
-    ("make", "message"),
-    [
-        (lambda: Section(RAIL, LINE, [2e-3, 1e-3]), "depths must be"),
-        (lambda: Section(RAIL, LINE, [-1e-3]), "depths must be"),
-        (lambda: Section(RAIL, 1.0, DEPTHS), "endurance = 1.0 is not a contact.stress.Endurance"),
-        (lambda: Section(RAIL, LINE, DEPTHS, width=1.0), "width = 1 is outside"),
-        (lambda: Endurance(math.nan, 8.0, 1e6), "endurance.limit = nan is outside"),
-        (lambda: Endurance(1e8, 0.0, 1e6), "endurance.exponent = 0 is outside"),
-    ],
-)
-def test_bad_input_is_refused(make, message):
-    with pytest.raises(ContactError, match=message):
-        make()
 
 
 def test_a_patch_of_another_profile_is_refused(touch):

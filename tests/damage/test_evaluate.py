@@ -179,9 +179,3 @@ def test_without_contact_every_number_is_zero():
 def test_no_load_gives_nan_or_infinity(load):
     tiny = contact.solve(WHEEL, contact.Creepage(1e-3, 1e-3, 0.1), load=load, throw=False)
     assert np.isfinite(numbers(damage.evaluate(tiny))).all()
-
-
-@pytest.mark.parametrize("radius", [0.0, -0.46, float("nan")])
-def test_wheel_radius_must_be_positive(solution, radius):
-    with pytest.raises(contact.ContactError, match=r"wheel_radius = .* is outside the allowed range \]0, inf\["):
-        damage.evaluate(solution, wheel_radius=radius)

@@ -271,7 +271,10 @@ def test_another_version_of_the_package_is_refused_at_instantiation():
         TableSlave(TABLE, "{another}", instance_name="q", resources="/nowhere")
 
 
-def test_instances_leave_the_module_path_as_it_was(monkeypatch):
+def test_instances_leave_the_module_path_as_it_was_and_release_their_library_at_the_end(monkeypatch):
+    released: list[str] = []
+    monkeypatch.setattr("contact_fmu.python.slave.release_once", released.append)
     monkeypatch.setattr(sys, "path", ["/nowhere", *sys.path])  # as pythonfmu does before it instantiates
     Quotient()
     assert "/nowhere" not in sys.path
+    assert released == ["/nowhere"]

@@ -97,28 +97,6 @@ def test_two_distant_lobes_share_the_load():
     assert shares[0] == pytest.approx(shares[1], rel=1e-3)
 
 
-@pytest.mark.parametrize(("given", "message"), [
-    ({"normal": "halfspace", "tangential": "fastrip"}, "does not work with normal = 'halfspace'"),
-    (BOTH | {"spacing": 0.0}, "spacing = 0 is outside"),
-    (BOTH | {"spacing": (1e-3, 1e-3, 1e-3)}, "pair of numbers"),
-    (BOTH | {"spacing": 1e-9}, "elements along a side"),
-])  # fmt: skip
-def test_bad_input_is_named(ellipse, given, message):
-    with pytest.raises(contact.ContactError, match=message):
-        contact.solve(ellipse, contact.Creepage(), load=8e4, **given)
-
-
-@pytest.mark.parametrize(("arguments", "message"), [
-    (([0.0], [0.0, 1.0], [[0.0], [0.0]]), "x has shape"),
-    (([0.0, 1.0, 3.0], [0.0, 1.0], np.zeros((2, 3))), "equal steps"),
-    (([0.0, 1.0], [0.0, 1.0], np.zeros((3, 2))), r"\(2, 2\) is needed"),
-    (([0.0, 1.0], [0.0, 1.0], [[0.0, np.nan], [0.0, 0.0]]), r"h\[0, 1\] = nan"),
-])  # fmt: skip
-def test_bad_gap_is_named(arguments, message):
-    with pytest.raises(contact.ContactError, match=message):
-        Gap(*arguments)
-
-
 def test_only_the_half_space_takes_a_grid_and_batches_do_without_it(ellipse):
     gap = Gap([0.0, 1e-3], [0.0, 1e-3], np.zeros((2, 2)))
     with pytest.raises(contact.ContactError, match=r"needs a contact\.Separation"):

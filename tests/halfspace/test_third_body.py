@@ -101,27 +101,3 @@ def test_given_forces_and_pressure_of_other_methods_take_a_layer():
     much = contact.solve(separation, contact.Creepage(), load=8e4, layer=layer, force=23.9e3, tangential="halfspace")
     assert much.status is contact.Status.UNREACHABLE
     assert contact.solve(separation, contact.Creepage(), load=0.0, layer=layer, **BOTH).status.name == "NO_CONTACT"
-
-
-@pytest.mark.parametrize(
-    ("arguments", "message"),
-    [
-        ({"flexibility": -1.0}, "layer.flexibility = -1"),
-        ({"yield_stress": 0.0}, "layer.yield_stress = 0"),
-        ({"hardening": math.nan}, "layer.hardening = nan"),
-    ],
-)
-def test_bad_layers_are_refused(arguments, message):
-    with pytest.raises(contact.ContactError, match=message):
-        contact.ThirdBody(**arguments)
-
-
-def test_layers_where_they_cannot_be_are_refused():
-    separation, layer = contact.Separation.hertzian(1.1, 0.8), contact.ThirdBody()
-    with pytest.raises(contact.ContactError, match="'fastsim' has no third body"):
-        contact.solve(separation, contact.Creepage(), load=8e4, layer=layer, tangential="fastsim")
-    with pytest.raises(contact.ContactError, match=r"layer = 3.0 is not a contact.ThirdBody"):
-        contact.solve(separation, contact.Creepage(), load=8e4, layer=3.0, **BOTH)
-    falling = Friction(0.3, 0.1, law="linear", velocity="local")
-    with pytest.raises(contact.ContactError, match="must not depend on local slip"):
-        contact.solve(separation, contact.Creepage(), load=8e4, layer=layer, friction=falling, **BOTH)

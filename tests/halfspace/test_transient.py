@@ -119,13 +119,6 @@ def test_a_separation_and_mirrored_motion():
 @pytest.mark.parametrize(
     ("call", "message"),
     [
-        (lambda: Transient(3.0, load=1.0), "separation = 3.0 is not a contact.Separation"),
-        (lambda: circle(mu=-1.0), "friction = -1 is outside"),
-        (lambda: Transient(contact.Separation.hertzian(1.0, 1.0), load=0.0), "load = 0 is outside"),
-        (lambda: Transient(contact.Separation.hertzian(1.0, 1.0), load=1.0, spacing=(1.0, 2.0, 3.0)), "spacing = "),
-        (lambda: circle(mu=contact.friction.Friction(0.3, hot_factor=0.5)), "greatest velocity or the temperature"),
-        (lambda: Transient(contact.Separation.hertzian(1.0, 1.0), load=1.0, approach=1e-5), "exactly one of load"),
-        (lambda: Transient(contact.Separation.hertzian(1.0, 1.0), load=1.0, layer=0.1), "layer = 0.1 is not"),
         (lambda: circle().shift(math.nan), "longitudinal = nan is not finite"),
         (lambda: circle().roll(contact.Creepage(), distance=0.0), "distance = 0 is outside"),
         (lambda: circle().roll(1e-3, distance=1e-3), "creepage = 0.001 is neither a contact.Creepage"),

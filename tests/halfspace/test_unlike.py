@@ -112,9 +112,3 @@ def test_no_coupling_and_no_contact_change_nothing():
         circle(), contact.Creepage(1e-3), approach=-1e-3, material=contact.Material(8e10, 0.3, coupling=0.1), **BOTH
     )
     assert apart.status is contact.Status.NO_CONTACT
-
-
-@pytest.mark.parametrize("value", [0.6, -0.6, math.nan])
-def test_bad_couplings_are_refused(value):
-    with pytest.raises(contact.ContactError, match=r"coupling = .* is outside"):
-        contact.Material(8e10, 0.3, coupling=value)

@@ -114,10 +114,3 @@ def test_a_limit_too_low_for_the_load_is_reported_by_the_status(limit):
     sol = contact.solve(contact.Separation(y, y**2, 1.0), CREEPAGE, load=8e4, material=material, throw=False)
     assert sol.status in (contact.Status.OUT_OF_RANGE, contact.Status.NOT_CONVERGED)
     assert all(map(math.isfinite, (sol.Fx, sol.Fy, sol.N, sol.approach)))
-
-
-def test_bad_limits_are_refused_by_name():
-    with pytest.raises(contact.ContactError, match="pressure_limit = 0 is outside the allowed range"):
-        dataclasses.replace(contact.STEEL, pressure_limit=0.0)
-    with pytest.raises(contact.ContactError, match="normal = 'halfspace' is elastic"):
-        limited(1e9, normal="halfspace", tangential="halfspace")

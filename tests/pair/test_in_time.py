@@ -85,23 +85,6 @@ def test_a_new_patch_has_no_damping(pair):
     np.testing.assert_array_equal(damping.force(flange, 1e-3), flange.force)
 
 
-@pytest.mark.parametrize(
-    ("call", "message"),
-    [
-        (lambda: FrictionMemory(LAW, 0.0), "distance = 0 is outside"),
-        (lambda: FrictionMemory(LAW, 1.0, -1.0), "least = -1 is outside"),
-        (lambda: FrictionMemory(0.3, 1.0), "friction = 0.3 is not a contact.friction.Friction"),
-        (lambda: FrictionMemory(Friction(0.3, velocity="local"), 1.0), "one state follows only 'global'"),
-        (lambda: FrictionMemory(LAW, 1.0).advance(math.nan, 1.0), "sliding = nan is outside"),
-        (lambda: ContactDamping(-1.0), "normal = -1 is outside"),
-        (lambda: ContactDamping(1.0, normal_rate=0.0), "normal_rate = 0 is outside"),
-    ],
-)
-def test_bad_input_is_refused(call, message):
-    with pytest.raises(ContactError, match=message):
-        call()
-
-
 TIME = np.array([0.0, 1e-3, 3e-3, 4e-3])
 SPIN = -20.0 / 0.46 * np.array([1.002, 1.004, 1.006, 1.004])
 MOTION = {"time": TIME, "pose.y": [1e-3, 1e-3, 2e-3, 2e-3], "velocity.x": [20.0] * 4, "velocity.spin": SPIN}

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 import contact
-from contact import ContactError, Status
+from contact import Status
 from contact.friction import Friction
 from contact.geometry import profile
 from contact.geometry.wheelset import Pair, Pose, Velocity
@@ -65,25 +65,6 @@ def test_the_patches_share_T_gamma_and_damage_has_the_names_of_a_solution():
     assert sum(one.T_gamma for one in found.contacts) == pytest.approx(found.damage.T_gamma, rel=1e-12)
     assert min(one.T_gamma for one in found.contacts) > 0.0
     assert found.damage.archard == (found.damage.archard_depth, found.damage.archard_volume)
-
-
-@pytest.mark.parametrize(
-    ("arguments", "options", "message"),
-    [
-        ((WHEEL,), {}, r"pair = Profile.* is no contact.geometry.wheelset.Pair; make one"),
-        ((None,), {}, r"pair = None is no"),
-        ((Pair(WHEEL, RAIL),), {"material": 2e11}, r"material = .* is no contact.inputs.material.Material"),
-        ((Pair(WHEEL, RAIL),), {"damage": "archard"}, "damage = 'archard' is no"),
-    ],
-)
-def test_an_argument_of_a_wrong_type_is_a_contact_error(arguments, options, message):
-    with pytest.raises(ContactError, match=message):
-        WheelRailPair(*arguments, **options)
-
-
-def test_a_speed_in_place_of_a_velocity_is_a_contact_error():
-    with pytest.raises(ContactError, match=r"velocity = 20.0 is not a contact.geometry.wheelset.Velocity"):
-        make().solve(Pose(), 20.0, load=80e3)
 
 
 def test_friction_and_speed_are_those_of_the_call_whatever_was_given_before():

@@ -179,24 +179,6 @@ def test_the_peak_is_at_least_that_of_the_grid(criterion):
     assert at(s, peak.x, peak.y, peak.z).peak(criterion).value == pytest.approx(peak.value, rel=1e-9)
 
 
-@pytest.mark.parametrize(
-    ("change", "message"),
-    [
-        ({"z": -1e-3}, r"z = -0\.001 is outside the allowed range \[0, inf\["),
-        ({"x": math.nan}, "x = nan is not finite"),
-        ({"x": [0.0, 1.0], "y": [0.0, 1.0, 2.0]}, "broadcast"),
-        ({"x": "one"}, "x = 'one' is not a number"),
-        ({"body": "sleeper"}, "body = 'sleeper' is unknown; allowed: rail, wheel"),
-        ({"poisson_ratio": 0.6}, "poisson_ratio = 0.6 is outside the allowed range"),
-        ({"load": 3.0}, "neither a contact.Solution nor"),
-    ],
-)
-def test_bad_points_are_refused(change, message):
-    arguments = {"load": SurfaceLoad([0.0, 1.0], [0.0, 1.0], np.ones((2, 2))), "x": 0.0, "y": 0.0, "z": 0.0} | change
-    with pytest.raises(contact.ContactError, match=message):
-        at(**arguments)
-
-
 @pytest.mark.parametrize("criterion", ["von_mises", "tresca", "shear_xz"])
 @pytest.mark.parametrize("creepage", [(0.0, 0.0, 0.0), (-2e-3, 1e-3, 0.1), (-8e-3, 0.0, 0.0)])
 @pytest.mark.parametrize("aspect", [0.1, 1.0, 8.0])

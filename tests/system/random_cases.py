@@ -20,7 +20,7 @@ OUTPUTS = (
     *("patch.width", "slip.ratio", "power.friction", "damage.T_gamma", "damage.wear_rate_pearce_sherratt"),
     *("damage.index_burstow", "damage.wear_rate_usfd", "damage.archard_depth_max", "damage.archard_volume"),
     *("damage.fatigue_index_surface", "damage.stress_index_max", "damage.energy_index_max", "stiffness.normal"),
-    *("total.energy", "total.worn_volume", "patch.count", "status"),
+    *("total.energy", "total.worn_volume", "gap_error", "bend", "patch.count", "status"),
 )
 #: Parameters of temperature-dependent friction.
 HEAT = (
@@ -49,12 +49,13 @@ class Case:
         if d.has_fields:
             local = d.archard.depth_max, d.archard.volume, d.stress_index.max, d.energy_index.max
         depth, volume, stress, energy = local
+        bend = s.bend if self.values["geometry.surface"] == 2 else 0.0  # a plane contact has no angles
         return np.array(
             [
                 *(s.Fx, s.Fy, s.N, s.Mz, s.approach, s.max_pressure, s.area, s.length, s.width, s.slip_ratio, power),
                 *(d.T_gamma, d.pearce_sherratt, d.burstow, d.usfd, depth, volume),
                 *(d.fatigue_index, stress, energy, s.normal_stiffness),
-                *(STEP * power, STEP * s.speed * volume, s.n_patches, s.status),
+                *(STEP * power, STEP * s.speed * volume, s.gap_error, bend, s.n_patches, s.status),
             ]
         )
 
@@ -63,9 +64,9 @@ class Case:
 
         The scale is the value, with these exceptions. It is mu N for forces. It is multiplied by mu N over the force for
         results that are computed from forces. It is mu N times 2 cm for the moment, the yield stress for the stress index
-        (a difference from it), and 1 for slip and fatigue index. The stiffness of most methods is a difference quotient over a
-        millionth of the approach, so its scale is larger by 1000. With a pressure limit the iteration of interacting strips
-        magnifies the last digit of asin, so the scale is larger by 10.
+        (a difference from it), and 1 for slip, fatigue index, `gap_error` and `bend`. The stiffness of most methods is a
+        difference quotient over a millionth of the approach, so its scale is larger by 1000. With a pressure limit the
+        iteration of interacting strips magnifies the last digit of asin, so the scale is larger by 10.
         """
         wanted, s = self.expected(), self.solution
         limit, force = s.friction * s.N, s.used_friction * s.N
@@ -78,6 +79,7 @@ class Case:
         )  # the pressure on a tilted surface has a part in it
         scale |= {"force.x": limit, "force.y": lateral, "moment.z": 0.02 * lateral, "slip.ratio": 1.0}
         scale |= {"damage.stress_index_max": s.material.shear_yield, "damage.fatigue_index_surface": 1.0}
+        scale |= {"gap_error": 1.0, "bend": 1.0}
         scale["stiffness.normal"] *= 1e3
         digits = 10.0 if s.normal == "strip_halfspace" and s.material.pressure_limit < math.inf else 1.0
         return np.abs(actual - wanted) / (digits * np.array(list(scale.values())) + 1e-300)

@@ -7,7 +7,7 @@ from typing import NamedTuple
 import pytest
 import wheelset_case
 from contact_case import NAME, posed
-from fmu_instance import DISCARD, Instance, discarded, refused
+from fmu_instance import DISCARD, WARNING, Instance, discarded, refused
 from thesis_case import THESIS
 
 import contact
@@ -161,13 +161,13 @@ def test_connectors_at_zero_give_no_contact_without_load_and_a_flat_contact_with
     assert fmu["force.x"] == before
 
 
-def test_a_patch_beyond_the_separation_is_reported_once(fmu):
+def test_a_patch_beyond_the_separation_is_reported_once_as_a_warning(fmu):
     fmu.update({f"geometry.g[{i}]": 1e-9 * (i - 21) ** 2 for i in range(1, 42)})
     for k in range(3):
         fmu.step(k * 1e-3)
     assert fmu["status"] == contact.Status.OUT_OF_RANGE
     assert all(math.isfinite(value) for value in fmu.all("output").values())
-    assert [message.split(":")[0] for _, message in fmu.log] == ["status OUT_OF_RANGE"]
+    assert [(status, message.split(":")[0]) for status, message in fmu.log] == [(WARNING, "status OUT_OF_RANGE")]
 
 
 def test_a_restored_or_serialised_state_continues_bit_by_bit(kind):

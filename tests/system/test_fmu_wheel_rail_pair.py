@@ -10,7 +10,6 @@ import fmpy
 import numpy as np
 import pytest
 from fmpy.fmi1 import FMICallException
-from fmpy.validation import validate_fmu
 from fmu_instance import Instance, discarded
 from pair_case import MOTION, NAME, compare, expected, mirrored, solved
 from thesis_case import THESIS
@@ -30,14 +29,6 @@ def fmu(open_pair):
     fmu = open_pair()
     fmu.update({**MOTION, **THESIS})
     return fmu.initialize(stop_time=1.0)
-
-
-def test_fmpy_finds_no_problem(pair_file):
-    assert validate_fmu(str(pair_file)) == []
-
-
-def test_fmpy_finds_no_problem_in_fmi3(native_fmi3):
-    assert validate_fmu(str(native_fmi3.with_name(f"{NAME}.fmu"))) == []
 
 
 def test_equals_the_solver_on_random_cases(open_pair, request):

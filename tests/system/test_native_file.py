@@ -18,14 +18,11 @@ import contact
 from contact_fmu import lint
 
 
-def test_fmpy_finds_no_problem(native):
-    assert validate_fmu(str(native)) == []
-
-
-def test_our_own_rules_find_no_problem(native, fmus):
-    files = [*native.parent.rglob("*.fmu"), *fmus.glob("*.fmu")]
-    assert len(files) > 3
-    assert {path.name: lint.check_file(path) for path in files if lint.check_file(path)} == {}
+def test_neither_fmpy_nor_our_own_rules_find_a_problem(native, fmus, native_vehicles):
+    files = [*native.parent.rglob("*.fmu"), *fmus.glob("*.fmu"), *native_vehicles.rglob("*.fmu")]
+    assert len(files) > 12
+    found = {str(path): [*validate_fmu(str(path)), *lint.check_file(path)] for path in files}
+    assert {path: problems for path, problems in found.items() if problems} == {}
 
 
 def test_what_is_linked_in_is_listed_with_its_licence(native_folder):

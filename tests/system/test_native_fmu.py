@@ -1,16 +1,12 @@
 """The native `WheelRailContact` through the C interface of FMI, as a user calls it."""
 
 import math
-import subprocess
-import sys
-from pathlib import Path
 
-import fmpy
 import numpy as np
 import pytest
 from contact_case import posed
 from fmpy.fmi1 import FMICallException
-from fmu_instance import DISCARD, ERROR, WARNING, refused
+from fmu_instance import DISCARD, ERROR, refused
 from thesis_case import THESIS
 
 import contact
@@ -22,24 +18,6 @@ def fmu(open_native):
     fmu = posed(open_native())
     fmu.update(THESIS)
     return fmu.initialize(stop_time=1.0)
-
-
-@pytest.mark.parametrize("kind", ["CoSimulation", "ModelExchange"])
-def test_simulates_with_fmpy(native, kind):
-    signals = np.array([(0.0, 0.0), (0.01, 2e-3)], dtype=[("time", float), ("creepage.longitudinal", float)])
-    result = fmpy.simulate_fmu(
-        str(native),
-        fmi_type=kind,
-        stop_time=0.01,
-        output_interval=1e-3,
-        input=signals,
-        output=["force.x", "total.energy"],
-    )
-    delay = 1 if kind == "CoSimulation" else 0
-    y = -0.02 + 0.001 * np.arange(41)
-    s = contact.solve(contact.Separation(y, y**2, 0.5 / 0.46), contact.Creepage(2e-4 * (10 - delay)), load=80e3)
-    assert result["force.x"][-1] == pytest.approx(s.Fx, rel=1e-4)  # interacting strips start from the last step
-    assert 0.0 < result["total.energy"][-1] < 0.01 * 20.0 * s.power_per_metre
 
 
 def test_a_bad_parameter_is_discarded_by_name_before_the_first_step(open_native):
@@ -106,13 +84,6 @@ def test_extreme_values_give_finite_outputs_or_none(open_native):
     assert done > 20
 
 
-def test_a_patch_beyond_the_separation_is_reported_once_as_a_warning(fmu):
-    fmu.update({f"geometry.g[{i}]": 1e-9 * (i - 21) ** 2 for i in range(1, 42)})
-    for k in range(3):
-        fmu.step(k * 1e-3)
-    assert [(status, message.split(":")[0]) for status, message in fmu.log] == [(WARNING, "status OUT_OF_RANGE")]
-
-
 def test_damaged_bytes_are_no_state(fmu):
     state = fmu.fmu.getFMUstate()
     content = bytearray(fmu.fmu.serializeFMUstate(state))
@@ -141,23 +112,6 @@ def test_model_exchange_has_no_delay_and_counts_energy_by_the_trapezoidal_rule(o
         energy += 1e-3 * (powers[-2] + powers[-1])
         assert fmu["total.energy"] == pytest.approx(energy, rel=1e-12)
     assert len(set(powers)) > 2
-
-
-def test_runs_in_libcosim(native):
-    """libcosim is an independent XML parser and host."""
-    host = subprocess.run(
-        [sys.executable, Path(__file__).with_name("cosim_host.py"), native],
-        check=True,
-        capture_output=True,
-        text=True,
-        timeout=120,
-    )
-    rows = [line.split()[1:] for line in host.stdout.splitlines() if line.startswith("result")]
-    y = -0.02 + 0.001 * np.arange(41)
-    for load, row in zip((80e3, 50e3), rows, strict=True):
-        s = contact.solve(contact.Separation(y, y**2, 0.5 / 0.46), contact.Creepage(1e-3), load=load)
-        # interacting strips start from the last step
-        assert [float.fromhex(number) for number in row[:2]] == pytest.approx([s.N, s.Fx], rel=1e-4)
 
 
 def test_discrete_variables_change_only_at_events_and_their_twins_at_once(open_native):

@@ -9,13 +9,11 @@ from pathlib import Path
 import fmpy
 import numpy as np
 import pytest
-from fmpy.validation import validate_fmu
 from fmu_instance import DISCARD, ERROR, Instance, refused
 from script_host import Script
 from thesis_case import THESIS
 from wheelset_case import NUMBERS, PARAMETERS, STATES, commands, inputs, reactions, reported, trajectory
 
-from contact_fmu import lint
 from contact_fmu.tables.wheelset import table
 from contact_models.wheelset import master
 from contact_models.wheelset.fmu import FmuComponent
@@ -76,14 +74,6 @@ def continuous(fmu):
 
 def references(fmu, *names: str) -> list[int]:
     return [fmu.variables[name].valueReference for name in names]
-
-
-# ---------------------------------------------------------------- the file
-
-
-def test_no_validator_finds_a_problem(native_wheelset):
-    assert validate_fmu(str(native_wheelset)) == []
-    assert lint.check_file(native_wheelset) == []
 
 
 # ---------------------------------------------------------------- co-simulation

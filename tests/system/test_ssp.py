@@ -123,7 +123,7 @@ def test_libcosim_gives_the_answer_of_the_example_master(system):
     command = [sys.executable, Path(__file__).with_name("ssp_host.py"), system, "2e-4", str(STEPS)]
     done = subprocess.run(command, capture_output=True, text=True, timeout=900)
     lines = [line.split()[1:] for line in done.stdout.splitlines() if line.startswith("result")]
-    assert len(lines) == STEPS, done.stderr[-2000:]
+    assert (len(lines), done.returncode) == (STEPS, 0), done.stderr[-2000:]
     found = np.array([[float.fromhex(value) for value in line] for line in lines])
     assert found == pytest.approx(expected, rel=1e-4, abs=1e-7)
 
