@@ -1,8 +1,8 @@
-"""Build the library of all kernels: ``python -m contact.compile.library FOLDER [--systems]``.
+"""Build the library of all kernels: ``python -m contact.compile.library FOLDER [--added | --systems]``.
 
 It writes kernels.o for this machine, with the entries of Python and of the C interface, and where there is a linker the library
-beside it. With ``--systems`` it writes kernels.bc, which has the functions that other packages add too (`Added`), and what
-`objects` makes of it for all systems. `linking` then links that.
+beside it. With ``--added`` these also have the functions that other packages add (`Added`). With ``--systems`` it writes
+kernels.bc, which has them too, and what `objects` makes of it for all systems. `linking` then links that.
 
 It imports all modules that have entries (`contact.core.entry`). `contact.core.library` starts it, with settings of numba.
 """
@@ -28,7 +28,7 @@ C_INTERFACE = sorted((get_include().parent / "c").glob("*.c"))
 
 
 class Added(NamedTuple):
-    """A function for C that another package adds to the libraries of all systems.
+    """A function for C that another package adds to the library.
 
     A module that pyproject.toml lists under ``added`` has a function `added()`, which returns them.
 
@@ -94,6 +94,11 @@ class Kernels:
             self.added += import_module(name).added()
         self.data = c_tables.data()
 
+    @property
+    def exported(self) -> list[str]:
+        """Names of the functions that can be called from outside the library: by Python, and of what other packages add."""
+        return [*(one.symbol for one in self.of_python), *(one.name for one in self.added if one.file)]
+
     def module(self) -> tuple[Any, list[str]]:
         """Return one LLVM module, and the names of its C functions. No kernel can be called in this process afterwards."""
         from numba import cfunc, types
@@ -117,7 +122,7 @@ class Kernels:
         for one in self.added:
             add(one.name, one.function, one.result, one.arguments, one.last(tables))
         module = made.module()
-        hidden = set(made.names) - {one.symbol for one in self.of_python}
+        hidden = set(made.names) - set(self.exported)
         for function in module.functions:
             if function.name in hidden:
                 function.visibility = "hidden"
@@ -173,9 +178,8 @@ def main() -> None:
     """Build into the folder that the command line names."""
     emit.show_no_warnings()
     folder, for_systems = Path(sys.argv[1]), "--systems" in sys.argv
-    kernels = Kernels(every=for_systems)
+    kernels = Kernels(every=for_systems or "--added" in sys.argv)
     module, names = kernels.module()
-    exported = [one.symbol for one in kernels.of_python]
     data = emit.data_as_ir(kernels.data)
     if not for_systems:
         from llvmlite import binding as llvm
@@ -194,7 +198,7 @@ def main() -> None:
         in_c.setdefault(one.file, []).append(one.name)
     apart = in_c.pop("", [])
     names = [name for name in names if name not in apart]
-    objects.write(code, names, exported, data, {"kernels.c": names, **in_c}, folder)
+    objects.write(code, names, kernels.exported, data, {"kernels.c": names, **in_c}, folder)
 
 
 if __name__ == "__main__":

@@ -88,7 +88,7 @@ def get_library() -> Path:
     >>> contact.get_library().is_file()
     True
     """
-    path = INSTALLED if INSTALLED.is_file() else _among_systems() or cached() / NAME
+    path = INSTALLED if INSTALLED.is_file() else _with_added() or cached() / NAME
     if not path.is_file():
         raise ImportError(f"{path} was not linked: the C interface of a checkout needs cc, gcc or clang")
     return path
@@ -96,35 +96,39 @@ def get_library() -> Path:
 
 def address(symbol: str) -> int:
     """Return the address of a function of the library."""
-    return _loaded().address(symbol)
+    return loaded().address(symbol)
 
 
 def constants(k: int, shape: tuple[int, ...]) -> NDArray[np.float64]:
     """Return array `k` of the constant arrays that the kernels read (`contact.compile.c_tables`). It is read-only."""
-    numbers = (ctypes.c_double * math.prod(shape)).from_address(_loaded().constants(k))
+    numbers = (ctypes.c_double * math.prod(shape)).from_address(loaded().constants(k))
     found = np.frombuffer(memoryview(numbers).cast("B")).reshape(shape)
     found.setflags(write=False)
     return found
 
 
 @dataclass(frozen=True)
-class _Loaded:
-    """The library of this process: the address of a function by its name, and that of a constant array by its number."""
+class Loaded:
+    """A library in this process: the address of a function by its name, and that of a constant array by its number."""
 
     address: Callable[[str], int]
     constants: Callable[[int], int]
 
 
 @cache
-def _loaded() -> _Loaded:
-    if whole := INSTALLED if INSTALLED.is_file() else _among_systems():
-        return _of_library(whole)
-    folder = cached()
+def loaded() -> Loaded:
+    """Return the library of this package."""
+    whole = INSTALLED if INSTALLED.is_file() else _with_added()
+    return of_library(whole) if whole else of_folder(cached())
+
+
+def of_folder(folder: Path) -> Loaded:
+    """Load the library in a folder that the builder has filled for this machine."""
     linked = folder / NAME
-    return _of_library(linked) if linked.is_file() else _of_objects(folder)
+    return of_library(linked) if linked.is_file() else _of_objects(folder)
 
 
-def _of_library(path: Path) -> _Loaded:
+def of_library(path: Path) -> Loaded:
     """Load a library.
 
     Raises
@@ -155,10 +159,10 @@ def _of_library(path: Path) -> _Loaded:
             ) from None
 
     library.wr_constants.restype = ctypes.c_void_p
-    return _Loaded(find, lambda k: library.wr_constants(k) or 0)
+    return Loaded(find, lambda k: library.wr_constants(k) or 0)
 
 
-def _of_objects(folder: Path) -> _Loaded:
+def _of_objects(folder: Path) -> Loaded:
     """Load the object file of a checkout on a machine that has no linker."""
     from llvmlite import binding as llvm
 
@@ -169,7 +173,7 @@ def _of_objects(folder: Path) -> _Loaded:
     engine.add_object_file(str(folder / "kernels.o"))
     engine.finalize_object()
     _KEPT.append(engine)
-    return _Loaded(
+    return Loaded(
         lambda symbol: int(engine.get_function_address(symbol)),
         lambda k: int(engine.get_global_value_address(f"wr_data{k}")),
     )
@@ -178,9 +182,16 @@ def _of_objects(folder: Path) -> _Loaded:
 _KEPT: list[object] = []
 
 
-def _among_systems() -> Path | None:
-    """Return the library of this system if this checkout has built those of all systems."""
-    found = cache_folder().glob(f"{PREFIX}{fingerprint()}-systems-*/linked-*/{SYSTEM}/{NAME}")
+def _with_added() -> Path | None:
+    """Return the library of this system that other packages have built with what they add, if there is one.
+
+    A folder that is being filled has a longer name.
+    """
+    found = [
+        path
+        for place in (f"systems-*/linked-*/{SYSTEM}", f"added-{'?' * 12}")
+        for path in cache_folder().glob(f"{PREFIX}{fingerprint()}-{place}/{NAME}")
+    ]
     return max(found, key=lambda path: path.stat().st_mtime, default=None)
 
 

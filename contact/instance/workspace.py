@@ -32,7 +32,7 @@ from contact.registry import Method
 from contact.theory import force_table, kalker
 
 
-def _zeros(n: int) -> Array:
+def zeros(n: int) -> Array:
     """Return n zeros, aligned to a cache line."""
     numbers = np.zeros(n + 7)
     first = -(numbers.ctypes.data // 8) % 8
@@ -58,7 +58,7 @@ class _UnboundedBlock:
 def _laid(lay: Callable[..., tuple[Any, ...]], *arguments: Any) -> Any:
     """Return the arrays that `lay`, a function of `contact.kernels.memory`, places in a new block of the needed size."""
     size = lay(_UnboundedBlock(), 0, *arguments)[-1]
-    *arrays, _ = lay(_zeros(size), 0, *arguments)
+    *arrays, _ = lay(zeros(size), 0, *arguments)
     return arrays[0] if len(arrays) == 1 else tuple(arrays)
 
 

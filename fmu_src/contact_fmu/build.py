@@ -143,9 +143,12 @@ def _asked(parser: argparse.ArgumentParser, arguments: argparse.Namespace) -> _A
 
 def _build(arguments: argparse.Namespace, asked: _Asked) -> None:
     """Build what is asked for, or print its variables."""
-    if "native" in asked.packagings and not arguments.describe:
+    if not arguments.describe:
         # first, because Python uses the one of this system; else a clone would build a library for itself too
-        systems.folder(asked.platforms)
+        if "native" in asked.packagings:
+            systems.folder(asked.platforms)
+        if "python" in asked.packagings:
+            systems.of_this_machine()
     given = profiles.chosen(arguments)
     if arguments.vehicle:
         of_vehicle = scenario.read(arguments.vehicle)

@@ -1,7 +1,4 @@
-"""The FMUs that this project builds.
-
-Each FMU has modules of the same name: its table in `tables`, its slave in `python` and its component in `native`.
-"""
+"""The FMUs that this project builds."""
 
 from __future__ import annotations
 
@@ -26,7 +23,7 @@ from .variables import Table
 
 @dataclass(frozen=True)
 class Model:
-    """An FMU: name of its modules, options of its table and native component, and its files in resources/.
+    """An FMU: name of its module in `tables`, options of its table and component, and its files in resources/.
 
     `view` are options that change only what hosts see of the table. `declared` names the function of `native.components`.
     """
@@ -40,20 +37,16 @@ class Model:
     @property
     def table(self) -> Table:
         """Variable table of the FMU."""
-        return self.module("tables").table(**self.all_options)
+        return import_module(f".tables.{self.name}", __package__).table(**self.all_options)
 
     @property
     def all_options(self) -> dict[str, Any]:
-        """Options of table and native component."""
+        """Options of table and component."""
         return {**self.options, **self.view}
 
     def component(self) -> Any:
-        """Return what the native FMU has (`native.component.Component`)."""
+        """Return what the FMU has beside its table (`native.component.Component`)."""
         return getattr(import_module(".native.components", __package__), self.declared)(**self.all_options)
-
-    def module(self, part: str) -> Any:
-        """Return the FMU's module in the package `part`: "tables" or "python"."""
-        return import_module(f".{part}.{self.name}", __package__)
 
 
 def models(points: int, given: Mapping[Kind, Profile] | None = None, accumulation: bool = False) -> tuple[Model, ...]:

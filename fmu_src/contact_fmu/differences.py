@@ -1,4 +1,4 @@
-"""Steps of the creepages for difference quotients. Both packagings use them."""
+"""Steps of the creepages for difference quotients."""
 
 import math
 

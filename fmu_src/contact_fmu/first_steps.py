@@ -57,7 +57,7 @@ _CONTACT_EXAMPLES = (
     ),
 )
 _STIFFNESS = (
-    "Reading creep_stiffness takes about one step more in a native FMU, four for hosts with Python. Record it only where it is "
+    "Reading creep_stiffness takes about one step more in a native FMU, two for hosts with Python. Record it only where it is "
     "needed."
 )
 _PAIR_DEFAULTS = (

@@ -1,4 +1,4 @@
-"""Profiles as resources of an FMU. Both packagings read their points and tangents when an instance is made.
+"""Profiles as resources of an FMU. Their points and tangents are read when an instance is made.
 
 `python -m contact_fmu.profiles FMU [--wheel NAME|FILE] [--rail NAME|FILE]` replaces the profiles in a finished
 FMU. This needs no compiler.
@@ -43,34 +43,6 @@ def pack(given: Profile) -> bytes:
         *((given, other) if given.kind == "wheel" else (other, given)), gauge_point=1e-6
     )  # raises if they cannot touch
     return files.pack(MAGIC[given.kind], np.stack((given.y, given.z, given.angle)))
-
-
-def unpack(resource: bytes, name: str) -> Profile:
-    """Return the profile of a resource.
-
-    Raises
-    ------
-    ContactError
-        If the bytes are not a profile.
-    """
-    kinds = [kind for kind, magic in MAGIC.items() if resource.startswith(magic)]
-    fault = f"resource {name} is not a profile"
-    if not kinds:
-        raise ContactError(f"{fault}: it is of another kind")
-    y, z, angle = files.unpack(resource, ROWS, fault)
-    return Profile(kinds[0], y, z, angle, name)
-
-
-def read(folder: Path, kind: Kind) -> Profile:
-    """Return the wheel or rail profile in a folder of resources. Raise ContactError if it cannot be read."""
-    path = folder / _RESOURCES[kind]
-    try:
-        found = unpack(path.read_bytes(), path.name)
-    except OSError as error:
-        raise ContactError(f"resource {path.name} cannot be read: {error.strerror}") from None
-    if found.kind != kind:
-        raise ContactError(f"resource {path.name} holds a {found.kind}, not a {kind}")
-    return found
 
 
 def resources(wheel: Profile, rail: Profile) -> dict[str, bytes]:

@@ -203,10 +203,10 @@ def test_without_any_folder_for_the_library_a_message_names_the_variable(tmp_pat
 def test_a_library_of_another_version_is_named(monkeypatch):
     path = library.get_library()
     with pytest.raises(ImportError, match="built from other sources"):
-        library._of_library(path).address("contact_kernels_of_tomorrow")
+        library.of_library(path).address("contact_kernels_of_tomorrow")
     monkeypatch.setattr(library, "__version__", "99.0")
     with pytest.raises(ImportError, match=rf"{path} is the library of wheelrail-contact .*, and this is version 99.0"):
-        library._of_library(path)
+        library.of_library(path)
 
 
 def test_the_library_holds_the_constants_that_numba_computes(tmp_path):

@@ -2,12 +2,12 @@
 
 import math
 import sys
+from typing import ClassVar
 
 import numpy as np
 import pytest
 from pythonfmu.enums import Fmi2Status
 
-from contact import ContactError
 from contact_fmu.description import model_description
 from contact_fmu.python.slave import INTERFACES, TableSlave
 from contact_fmu.variables import Enumeration, Table, output, parameter, signal
@@ -32,22 +32,23 @@ MODE, MODE_INTEGER, X1, X2, Y, Q1, Q2, STEPS, STEPS_REAL, SLOW = range(10)
 
 class Quotient(TableSlave):
     lazy = ("slow",)
+    failures: ClassVar = {3: "y = 3 is not to our taste"}
     calls = 0
 
     def __init__(self):
         super().__init__(TABLE, model_description(TABLE, INTERFACES)[0], instance_name="q", resources="/nowhere")
 
-    def outputs(self, values, step_size):
-        if values.item("mode") == "Fail":
+    def solve(self, values, h):
+        if values[MODE] == 2:
             raise ZeroDivisionError("as asked")
-        if values["y"] == 3.0:
-            raise ContactError("y = 3 is not to our taste")
-        y = values["y"]
-        return {"q": [x / y if y else math.inf for x in values["x"]], "steps": values["steps"] + (step_size > 0.0)}
+        y = values[Y]
+        values[[Q1, Q2]] = values[[X1, X2]] / y if y else math.inf
+        values[STEPS] += h > 0.0
+        return int(y == 3.0) * 3
 
-    def on_demand(self, values):
+    def solve_lazy(self, values):
         self.calls += 1
-        return {"slow": 2.0 * values["x"][0] / values["y"]}
+        values[SLOW] = 2.0 * values[X1] / values[Y]
 
 
 def messages(slave, status):
@@ -91,7 +92,7 @@ def test_outputs_change_only_with_a_step_afterwards(slave):
         (X1, -math.inf, "x[1] = -inf is outside the allowed range ]-inf, 100]"),
         (Y, -1.0, "y = -1 is outside the allowed range [0, inf["),
         (Y, math.inf, "y = inf is outside the allowed range [0, inf["),
-        (Y, 0.0, "q has no finite value for these inputs"),
+        (Y, 0.0, "q[1] has no finite value for these inputs"),
         (Y, 3.0, "y = 3 is not to our taste"),
     ],
 )

@@ -16,6 +16,7 @@ from pair_case import NAME as PAIR
 
 import contact
 from contact_fmu import lint
+from contact_fmu.native import kinds
 
 
 def test_neither_fmpy_nor_our_own_rules_find_a_problem(native, fmus, native_vehicles):
@@ -96,7 +97,7 @@ def functions(native_folder) -> set[str]:
 
 
 def test_the_library_needs_only_the_c_library(native_folder):
-    """Apart from the C library it needs libm. It exports FMI, wheelrail.h and the entries of Python."""
+    """Apart from the C library it needs libm. It exports FMI, wheelrail.h, the entries of Python and the kinds of models."""
     library = native_folder / "binaries" / "linux64" / f"{NAME}.so"
     symbols = subprocess.run(["nm", "-D", library], check=True, capture_output=True, text=True).stdout
     needed = set(re.findall(r" [Uw] (\w+)", symbols))
@@ -107,7 +108,9 @@ def test_the_library_needs_only_the_c_library(native_folder):
     kernels = {name for name in offered if name.endswith(("_v2", "_v3"))}
     interface = {name for name in offered if name.startswith("wr_")}
     assert offered == versions["fmi2"] | versions["fmi3"] | kernels | interface
-    assert all(name.startswith(("contact_", "models_")) for name in kernels)
+    of_models = {f"{name}_{cpu}" for kind in kinds.KINDS for name in kinds.names(kind) for cpu in ("v2", "v3")}
+    assert kernels >= of_models
+    assert all(name.startswith(("contact_", "models_")) for name in kernels - of_models)
     assert {v: len(names) for v, names in versions.items()} == {
         "fmi2": 44,
         "fmi3": 75,

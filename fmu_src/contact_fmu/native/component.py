@@ -1,4 +1,4 @@
-"""Description of one native FMU for the builder and the C wrapper."""
+"""Description of one FMU for the builder, the C wrapper and the Python slave."""
 
 from __future__ import annotations
 
@@ -52,7 +52,7 @@ class Resource(NamedTuple):
 
 @dataclass(frozen=True, kw_only=True)
 class Component:
-    """One native FMU, as data for the library of all FMUs.
+    """One FMU, as data for the library of all FMUs.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""What each native FMU has beside its variables: files in resources/, messages and numbers of its own. No kernels."""
+"""What each FMU has beside its variables: files in resources/, messages and numbers of its own. No kernels."""
 
 from __future__ import annotations
 

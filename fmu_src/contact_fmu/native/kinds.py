@@ -1,4 +1,4 @@
-"""The kinds of models of native FMUs, and the functions of each that C calls.
+"""The kinds of models of FMUs, and the functions of each that C calls, and Python for hosts that have it.
 
 The module of a kind has a function `entries()`. It returns Python functions by the names in `SIGNATURES`, which numba compiles.
 The first argument is the array of all values, indexed by value reference. Most functions also take the working memory, which

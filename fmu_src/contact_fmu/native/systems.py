@@ -11,6 +11,7 @@ this machine (`contact.core.library`). The folder has
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from functools import cache
 from pathlib import Path
 from shutil import copy
 
@@ -83,7 +84,7 @@ def folder(systems: Sequence[str] = USUAL, say: Callable[[str], None] = print) -
             )
         return INSTALLED
     compiled = kernels(say)
-    made = compiled / f"linked-{digest(*WRAPPER, PROCESSOR, _HERE / 'licences.py', *ENTRY)}"
+    made = _linked(compiled)
 
     def missing() -> list[str]:
         return [system for system in systems if not (made / system / SYSTEMS[system]).is_file()]
@@ -94,21 +95,41 @@ def folder(systems: Sequence[str] = USUAL, say: Callable[[str], None] = print) -
     return made
 
 
-def kernels(say: Callable[[str], None] = print) -> Path:
-    """Return the folder of the kernels of a checkout, compiled for all systems. They are compiled if they are not there.
+@cache
+def of_this_machine() -> library.Loaded:
+    """Return the library of this machine with the functions of all kinds of models. A checkout builds it if necessary."""
+    if library.INSTALLED.is_file():
+        return library.loaded()
+    linked = _linked(_compiled("systems")) / library.SYSTEM / library.NAME
+    return (
+        library.of_library(linked)
+        if linked.is_file()
+        else library.of_folder(library.build(_compiled("added"), "--added"))
+    )
 
-    The name of the folder is a hash of everything that they are made from.
-    """
-    parts = [path for name in (".", "native", "tables") for path in (_HERE.parent / name).glob("*.py")]
-    parts = [path for path in parts if path.stem not in _WITHOUT]
-    models = (_ROOT / "models").rglob("*.py")
-    content = digest(*parts, *models, *(_ROOT / "explorer").glob("patch.py"))
-    made = library.cache_folder() / f"{library.PREFIX}{library.fingerprint()}-systems-{content}"
+
+def kernels(say: Callable[[str], None] = print) -> Path:
+    """Return the folder of the kernels of a checkout, compiled for all systems. They are compiled if they are not there."""
+    made = _compiled("systems")
     if not made.is_dir():
         import ziglang  # noqa: F401 - without it the libraries could not be linked, which the user must not learn minutes later
 
         say("compiling the kernels for all systems, some minutes the first time")
     return library.build(made, "--systems")
+
+
+def _compiled(what: str) -> Path:
+    """Return the folder of compiled kernels of a checkout. Its name has a hash of everything that they are made from."""
+    parts = [path for name in (".", "native", "tables") for path in (_HERE.parent / name).glob("*.py")]
+    parts = [path for path in parts if path.stem not in _WITHOUT]
+    models = (_ROOT / "models").rglob("*.py")
+    content = digest(*parts, *models, *(_ROOT / "explorer").glob("patch.py"))
+    return library.cache_folder() / f"{library.PREFIX}{library.fingerprint()}-{what}-{content}"
+
+
+def _linked(compiled: Path) -> Path:
+    """Return the folder of the libraries that are linked with these kernels."""
+    return compiled / f"linked-{digest(*WRAPPER, PROCESSOR, _HERE / 'licences.py', *ENTRY)}"
 
 
 def _link(compiled: Path, made: Path, systems: Sequence[str], say: Callable[[str], None]) -> None:

@@ -30,17 +30,17 @@ _SCRIPT = '''\
 import sys
 
 try:
-    from contact_fmu.python.{module} import {slave}
+    from contact_fmu.python.model import ModelSlave
 except ImportError as error:
     from pythonfmu.enums import Fmi2Status
     from pythonfmu.fmi2slave import Fmi2Slave
 
     reason = f"the FMU {name} needs the package wheelrail-contact {version} in the host's Python: {{error}}"
 
-    class {slave}(Fmi2Slave):
+    class ModelSlave(Fmi2Slave):
         """Stands for the model that is missing. An instance that logs an error while it is made is not given to the host."""
 
-        def __init__(self, **kwargs):
+        def __init__(self, declared, options, guid, **kwargs):
             super().__init__(**kwargs)
             self.log(reason, Fmi2Status.error)
 
@@ -48,9 +48,9 @@ except ImportError as error:
             return False
 
 
-class {name}({slave}):
+class {name}(ModelSlave):
     def __init__(self, **kwargs):
-        super().__init__(**{options!r}, guid="{guid}", **kwargs)
+        super().__init__("{declared}", {options!r}, guid="{guid}", **kwargs)
 '''
 
 
@@ -66,8 +66,7 @@ def _files(model: Model, platforms: Collection[str]) -> Iterator[tuple[str, byte
     script = _SCRIPT.format(
         name=name,
         version=__version__,
-        module=model.name,
-        slave="".join(part.capitalize() for part in model.name.split("_")) + "Slave",
+        declared=model.declared,
         options=model.all_options,
         guid=guid,
     ).encode()

@@ -1,4 +1,4 @@
-"""pythonfmu slave that is driven by a variable table. A model adds the function from inputs to outputs.
+"""pythonfmu slave that is driven by a variable table: FMI's state machine. A model adds what computes the values.
 
 pythonfmu 0.7.0 turns an exception in a callback into fmi2Fatal, and the fifth one crashes the host (measured). Therefore no
 exception leaves a callback. What is refused is logged, and `c/entry.c` returns the status of the worst message of a call.
@@ -9,23 +9,23 @@ from __future__ import annotations
 import json
 import math
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Mapping, Sequence
 from enum import StrEnum
 from functools import wraps
-from operator import itemgetter
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 from pythonfmu.enums import Fmi2Status
 from pythonfmu.fmi2slave import Fmi2Slave
 
 from contact import __version__
+from contact.arrays import Array
 from contact.errors import ContactError
 from ..description import LOG_CATEGORIES, model_description
 from ..variables import Causality, Kind, Table
 from .doubting import Doubting
 from .ending import release_once
-from .values import Rows, SlaveValues
 
 #: Capabilities of this packaging: attributes of the element CoSimulation.
 INTERFACES = {
@@ -97,10 +97,10 @@ def _rounding(time: float, h: float) -> float:
 
 
 class TableSlave(Fmi2Slave):
-    """Co-simulation slave of an FMU with this table.
+    """Co-simulation slave of an FMU with this table. Its values are one array, indexed by value reference.
 
-    A model implements `outputs`, and `on_demand` for outputs that are costly and seldom read. The state of an instance is its
-    values. A model with further state also implements `memory` and `recall`.
+    A model implements `solve`, and `solve_lazy` for outputs that are costly and seldom read. One with a state besides its
+    values also implements `accept`, `memory` and `recall`.
 
     Parameters
     ----------
@@ -116,8 +116,11 @@ class TableSlave(Fmi2Slave):
 
     log_categories = LOG_CATEGORIES
 
-    #: Rows that `on_demand` computes only when a host reads them.
+    #: Rows that `solve_lazy` computes only when a host reads them.
     lazy: tuple[str, ...] = ()
+    #: Messages by number: those of a warning, and those with which a step is discarded.
+    warnings: Mapping[int, str] = {}
+    failures: Mapping[int, str] = {}
 
     def __init__(self, table: Table, guid: str, **kwargs: Any) -> None:
         super().__init__(**kwargs)
@@ -135,10 +138,11 @@ class TableSlave(Fmi2Slave):
         self.guid = guid
         self.phase = Phase.INSTANTIATED
         self.time, self.stop_time = 0.0, math.inf
-        self.values = SlaveValues(table, [s.first for s in table.scalars])
+        self.values = np.array([s.first for s in table.scalars], np.float64)
         self.solved = self.values.copy()  # values of the last step, to which the lazy rows belong
         self.lazy_is_stale = False
         self.inputs_are_new = True
+        self.said = 0  # number of the last warning, which is logged once while it lasts
         self._index(table)
 
     def _index(self, table: Table) -> None:
@@ -156,32 +160,41 @@ class TableSlave(Fmi2Slave):
         }
         self._readable = {kinds: frozenset(r for r, s in every if s.row.kind in kinds) for kinds in _CALLS}
         self._settable = {(p, kinds): settable[p] & self._readable[kinds] for p in Phase for kinds in _CALLS}
-        self._lazy = frozenset(r for name in self.lazy for r in table.references(name))
-        self._checked = [r for r, s in every if s.row.initial == "exact" or r in inputs]
-        self._values_checked = itemgetter(*self._checked)
+        self._lazy = [r for name in self.lazy for r in table.references(name)]
+        self._computed = np.array([r for r, s in every if not s.row.is_given], np.int64)
+        self._checked = np.array([r for r, s in every if s.row.initial == "exact" or r in inputs], np.int64)
         scalars = [table.scalars[r] for r in self._checked]
         # Closed ranges of finite numbers: an open minimum becomes the next number, infinity the largest finite number.
         least = [np.nextafter(s.minimum, np.inf) if s.row.open_minimum else s.minimum for s in scalars]
         self._least = np.maximum(least, -sys.float_info.max)
         self._greatest = np.minimum([s.maximum for s in scalars], sys.float_info.max)
-        self._choices = [(row.name, row.twin_of) for row in table.twins if row.is_given]
         self._doubts = Doubting(table)
-        self._mirrors = [(row.name, row.twin_of) for row in table.twins if not row.is_given]
+        at = {name: span.start for name, span in table.span.items()}
+        self._choices = [(at[row.name], at[row.twin_of], row.maximum) for row in table.twins if row.is_given]
+        mirrors = [(row.name, row.twin_of) for row in table.twins if not row.is_given]
+        self._mirrors, self._shown = (
+            np.array([r for pair in mirrors for r in table.references(pair[k])], np.int64) for k in range(2)
+        )
+        self._totals = [
+            (at[row.name], *(None if name is None else at[name] for name in row.integral_of))
+            for row in table.rows
+            if row.integral_of
+        ]
 
     # ---------------------------------------------------------------- implemented by a model
 
-    def outputs(self, values: SlaveValues, step_size: float) -> Rows:
-        """Return the outputs after a step of `step_size` [s], which is 0 during initialisation.
+    def solve(self, values: Array, h: float) -> int:
+        """Compute the outputs in `values` after a step of `h` [s], which is 0 during initialisation.
 
-        Raises
-        ------
-        ContactError
-            If there is no solution. The step is then discarded, and the `memory` of the model must be unchanged.
+        Return the number of a message. Nothing else may change until `accept`.
         """
         raise NotImplementedError
 
-    def on_demand(self, values: SlaveValues) -> Rows:
-        """Return the `lazy` rows that belong to `values`."""
+    def accept(self, values: Array, h: float) -> None:
+        """Let the next step start from the last solution, whose values and step these are."""
+
+    def solve_lazy(self, values: Array) -> None:
+        """Compute the `lazy` rows that belong to `values`."""
         raise NotImplementedError
 
     def memory(self) -> str | None:
@@ -238,17 +251,27 @@ class TableSlave(Fmi2Slave):
         self.time = current_time + step_size
         return True
 
-    def _update(self, step_size: float) -> None:
+    def _update(self, h: float) -> None:
         """Check the ranges of the values and compute the outputs. If this fails, the outputs are unchanged."""
         self.inputs_are_new = False
         self._choose()
-        given = self._checked_values()
-        new = self._mirrored(self.outputs(given, step_size))
-        self.values = self.values.updated(new)
-        for message in self._doubts.messages(given):
+        values = self._checked_values()
+        number = self.solve(values, h)
+        if number in self.failures:
+            raise ContactError(self.failures[number])
+        for total, rate, speed in self._totals:
+            per_second = 1.0 if speed is None else abs(values[speed])
+            values[total] += (per_second if rate is None else per_second * values[rate]) * h
+        values[self._mirrors] = values[self._shown]
+        self._require_finite(values, self._computed)
+        self.accept(values, h)
+        self.values[self._computed] = values[self._computed]
+        self.solved, self.lazy_is_stale = values, bool(self.lazy)
+        for message in self._doubts.messages(values):
             self.log(message, Fmi2Status.warning)
-        if self.lazy:
-            self.solved, self.lazy_is_stale = given.updated(new), True
+        if number != self.said and number in self.warnings:
+            self.log(self.warnings[number], Fmi2Status.warning)
+        self.said = number
 
     @guarded
     def _update_at_start(self) -> None:
@@ -259,33 +282,37 @@ class TableSlave(Fmi2Slave):
     def _update_lazy(self) -> None:
         """Compute the lazy rows of the last step."""
         self.lazy_is_stale = False
-        self.values = self.values.updated(self.on_demand(self.solved))
+        values = self.solved.copy()
+        self.solve_lazy(values)
+        self._require_finite(values, self._lazy)
+        self.values[self._lazy] = values[self._lazy]
 
-    def _mirrored(self, rows: Rows) -> Rows:
-        """Return the rows with the twins of those that have one."""
-        return {**rows, **{twin: rows[of] for twin, of in self._mirrors if of in rows}}
+    def _require_finite(self, values: Array, references: Sequence[int] | NDArray[np.int64]) -> None:
+        """Raise ContactError for the first of these that is not finite."""
+        finite = np.isfinite(values[references])
+        if not finite.all():
+            name = self.table.scalars[references[int(np.argmin(finite))]].name
+            raise ContactError(f"{name} has no finite value for these inputs")
 
     def _choose(self) -> None:
         """Let the choices that are not 0 be the values of their enumerations."""
-        for twin, of in self._choices:
-            if 0 < self.values[twin] <= self.table.row[twin].maximum:
-                self.values.numbers[self.table.span[of].start] = self.values[twin]
+        for twin, of, greatest in self._choices:
+            if 1.0 <= self.values[twin] <= greatest:
+                self.values[of] = self.values[twin]
 
-    def _checked_values(self) -> SlaveValues:
-        """Return the values, with its start in place of a value that is outside its range and is not used.
+    def _checked_values(self) -> Array:
+        """Return a copy of the values, with its start in place of a value that is outside its range and is not used.
 
         Raise ContactError for the first parameter, input or state that is used and not finite or outside its range.
         """
-        numbers = np.array(self._values_checked(self.values.numbers), dtype=np.float64)
-        allowed = (numbers >= self._least) & (numbers <= self._greatest)
-        if allowed.all():
-            return self.values
         values = self.values.copy()
-        for k in np.flatnonzero(~allowed):
-            scalar, reference = self.table.scalars[self._checked[k]], self._checked[k]
-            if self.values.uses(scalar.row):
-                scalar.check(values.numbers[reference])
-            values.numbers[reference] = scalar.first
+        numbers = values[self._checked]
+        for k in np.flatnonzero(~((numbers >= self._least) & (numbers <= self._greatest))):
+            reference = self._checked[k]
+            scalar = self.table.scalars[reference]
+            if self.table.uses(scalar.row, values):
+                scalar.check(float(values[reference]))
+            values[reference] = scalar.first
         return values
 
     # ---------------------------------------------------------------- get and set
@@ -325,20 +352,20 @@ class TableSlave(Fmi2Slave):
     def _get(self, kinds: tuple[Kind, ...], references: list[int]) -> list[Any]:
         if self.phase is Phase.INITIALIZATION and self.inputs_are_new:
             self._update_at_start()
-        if self.lazy_is_stale and not self._lazy.isdisjoint(references):
+        if self.lazy_is_stale and not set(references).isdisjoint(self._lazy):
             self._update_lazy()
-        readable, numbers = self._readable[kinds], self.values.numbers
+        readable, kind = self._readable[kinds], float if kinds is _REAL else int
         for reference in references:
             if reference not in readable:
                 self._refuse("read", reference, kinds)
-        return [numbers[reference] if reference in readable else 0 for reference in references]
+        return [kind(self.values[reference]) if reference in readable else 0 for reference in references]
 
     def _set(self, kinds: tuple[Kind, ...], references: list[int], values: list[Any]) -> None:
         self.inputs_are_new = True
-        settable, numbers = self._settable[self.phase, kinds], self.values.numbers
+        settable = self._settable[self.phase, kinds]
         for reference, value in zip(references, values, strict=True):
             if reference in settable:
-                numbers[reference] = value
+                self.values[reference] = value
             else:
                 self._refuse("set", reference, kinds)
 
@@ -356,8 +383,9 @@ class TableSlave(Fmi2Slave):
             "phase": self.phase,
             "time": self.time,
             "stop_time": self.stop_time,
-            "values": self.values.numbers.copy(),
-            "solved": self.solved.numbers.copy(),
+            "said": self.said,
+            "values": self.values.tolist(),
+            "solved": self.solved.tolist(),
             "lazy_is_stale": self.lazy_is_stale,
             "inputs_are_new": self.inputs_are_new,
             "memory": self.memory(),
@@ -368,10 +396,12 @@ class TableSlave(Fmi2Slave):
         if not isinstance(state, dict) or state.get("guid") != self.guid:
             self.phase = Phase.LOST
             raise ValueError(f"this is not a state of the FMU {self.table.name}; set another one")
+        both = np.array([state["values"], state["solved"]], np.float64)
+        if both.shape != (2, self.values.size):
+            raise ValueError(f"this state of the FMU {self.table.name} has {both.shape[1]} values")
         self.phase = Phase(state["phase"])
-        self.time, self.stop_time = state["time"], state["stop_time"]
-        self.values = SlaveValues(self.table, state["values"].copy())
-        self.solved = SlaveValues(self.table, state["solved"].copy())
+        self.time, self.stop_time, self.said = state["time"], state["stop_time"], state["said"]
+        self.values, self.solved = both
         self.lazy_is_stale = state["lazy_is_stale"]
         self.inputs_are_new = state["inputs_are_new"]
         self.recall(state["memory"])
