@@ -6,12 +6,13 @@ import math
 import threading
 from collections.abc import Callable
 from dataclasses import replace
-from typing import NamedTuple
+from functools import partial
+from typing import Any
 
 from contact.arrays import Array
 from contact.errors import ContactError, require_number, require_pair
 from contact.friction import Friction, as_friction
-from contact.given_force import Force, solve_for_force, wanted_force
+from contact.given_force import solve_for_force, wanted_force
 from contact.halfspace import linear
 from contact.halfspace.bent import Surface
 from contact.halfspace.derivatives import derive
@@ -23,14 +24,15 @@ from contact.halfspace.third_body import ThirdBody
 from contact.inputs.creepage import Creepage, as_creepage
 from contact.inputs.material import STEEL, Material
 from contact.inputs.options import ITERATIONS, N_ELEMENTS, N_STRIPS
-from contact.inputs.plausibility import doubt_alike, doubt_case
+from contact.inputs.plausibility import doubt_case
 from contact.inputs.separation import Separation
 from contact.registry import DEFAULT_NORMAL, DEFAULT_TANGENTIAL, Method, lookup
 from contact.results import Solution
 from contact.solver import (
     Solver,
-    require_conformal,
+    require_amount,
     require_resolution,
+    require_separation,
     require_trustworthy,
 )
 from contact.theory.kalker import constant_table
@@ -144,54 +146,60 @@ def solve(
     >>> round(solution.Fx), round(solution.max_pressure / 1e6), solution.status
     (-11851, 893, <Status.OK: 1>)
     """
-    if not isinstance(separation, Separation | Gap):
-        if isinstance(getattr(separation, "separation", None), Separation | Gap):
-            raise ContactError(f"separation is a {type(separation).__name__}; use patch.separation")
-        raise ContactError(f"separation = {separation!r} is not a contact.Separation")
-    creepage = as_creepage(creepage)
-    if (load is None) == (approach is None):
-        raise ContactError(f"exactly one of load and approach is needed; load = {load}, approach = {approach}")
-    if load is not None:
-        require_number("load", load, 0.0)
-    else:
-        require_number("approach", approach)
-    wanted = None if force is None else wanted_force(force)
-    surface = as_friction(friction)
-    speed = require_number("speed", speed, 0.0)
-    vector = creepage.longitudinal, creepage.lateral, creepage.spin
-    doubt_case(load, approach, vector, surface.static, speed)
-    max_iterations = ITERATIONS.require("max_iterations", max_iterations)
     method, rolling = lookup("normal", normal), lookup("tangential", tangential)
     usual = (_N_OF_HALF_SPACE,) * 2 if method.elementwise else (N_STRIPS.usual, N_ELEMENTS.usual)
-    n_strips, n_elements = require_resolution(
+    size = require_resolution(
         *(default if given is None else given for given, default in zip((n_strips, n_elements), usual, strict=True))
     )
+    max_iterations = ITERATIONS.require("max_iterations", max_iterations)
+    division = Division(*size, None if spacing is None else require_pair("spacing", spacing))
+    if layer is not None:
+        require_layer(layer, rolling)
+    if method.elementwise and not rolling.elementwise:
+        raise ContactError(f"tangential = {tangential!r} does not work with normal = {normal!r}; allowed: halfspace")
+    if derivatives and (force is not None or rolling.calibrated or (rolling.elementwise and not method.elementwise)):
+        what = "force" if force is not None else f"normal = {normal!r} and tangential = {tangential!r}"
+        raise ContactError(f"derivatives = True does not work with {what}")
+    on_strips = partial(
+        _on_strips, separation, load=load, approach=approach, friction=friction, material=material, speed=speed,
+        normal=method.name, size=size, conformal=conformal, max_iterations=max_iterations, start=start, trace=trace,
+    )  # fmt: skip
     if not rolling.elementwise:
-        doubt_alike(material.coupling)
-    division = Division(n_strips, n_elements, None if spacing is None else require_pair("spacing", spacing))
-    if rolling.elementwise and (surface.slope, surface.slope_far) != (1.0, 1.0):
+        coefficients = _patch_coefficients(on_strips, creepage, rolling, material) if rolling.calibrated else None
+        solution = on_strips(
+            creepage,
+            rolling.kernel,
+            coefficients=coefficients,
+            force=force,
+            derivatives=derivatives,
+            doubted=rolling.calibrated,
+            throw=throw,
+        )
+        return replace(solution, tangential=rolling.name) if rolling.calibrated else solution  # which stays lazy
+
+    require_separation(separation, Separation | Gap)
+    creepage, _ = as_creepage(creepage), require_amount(load, approach)
+    wanted = None if force is None else wanted_force(force)
+    surface = as_friction(friction)
+    if (surface.slope, surface.slope_far) != (1.0, 1.0):
         raise ContactError(
             f"friction.slope = {surface.slope:g}: tangential = {tangential!r} is the half space itself; allowed: slope 1"
         )
-    if layer is not None:
-        require_layer(layer, rolling, surface)
-    if conformal:
-        require_conformal(rolling)
-        if not isinstance(separation, Separation):
-            raise ContactError("conformal: a gap on a grid has only the contact plane; allowed: contact.Separation")
+    if layer is not None and ((surface.velocity != "global" and surface.law != "coulomb") or surface.hot_factor < 1.0):
+        raise ContactError("layer: friction must not depend on local slip or temperature")
+    if conformal and isinstance(separation, Gap):
+        raise ContactError("conformal: a gap on a grid has only the contact plane; allowed: contact.Separation")
     if method.elementwise and material.pressure_limit < math.inf:
         raise ContactError(
             f"material.pressure_limit = {material.pressure_limit:g}: normal = {normal!r} is elastic; allowed: inf"
         )
-    if method.elementwise and not rolling.elementwise:
-        raise ContactError(f"tangential = {tangential!r} does not work with normal = {normal!r}; allowed: halfspace")
-    if derivatives and (wanted is not None or rolling.calibrated or (rolling.elementwise and not method.elementwise)):
-        what = "force" if wanted is not None else f"normal = {normal!r} and tangential = {tangential!r}"
-        raise ContactError(f"derivatives = True does not work with {what}")
     if trace and progress is None:
         progress = show_step
     solver: Callable[[Creepage], Solution] | Pressed
     if method.elementwise:
+        speed = require_number("speed", speed, 0.0)
+        vector = creepage.longitudinal, creepage.lateral, creepage.spin
+        doubt_case(load, approach, vector, surface.static, speed)
         solver = press_gap(
             separation,
             division,
@@ -204,20 +212,10 @@ def solve(
             layer=layer,
             progress=progress,
         )
-    elif not isinstance(separation, Separation):
-        raise ContactError(f"normal = {normal!r} needs a contact.Separation; separation = {separation!r} is on a grid")
     else:
-        size = n_strips, n_elements
-        problem = _StripProblem(
-            separation, load, approach, surface, material, speed, method.name, size, start, conformal, max_iterations, trace
-        )  # fmt: skip
-        if not rolling.elementwise:
-            coefficients = _patch_coefficients(problem, creepage, rolling) if rolling.calibrated else None
-            solution = problem.solve(
-                creepage, rolling.kernel, coefficients, wanted, derivatives=derivatives, throw=throw
-            )
-            return replace(solution, tangential=rolling.name) if rolling.calibrated else solution  # which stays lazy
-        solver = _rolling(problem, creepage, division, layer, progress)
+        first = on_strips(creepage, conformal=False)
+        bent = Surface.of(separation) if conformal and isinstance(separation, Separation) else None
+        solver = _rolling(first, bent, load, surface, division, layer, progress)
     evaluate = solver.roll if isinstance(solver, Pressed) else solver
     if wanted is None:
         solution = evaluate(creepage)
@@ -231,14 +229,12 @@ def solve(
     return solution
 
 
-def require_layer(layer: object, tangential: Method, friction: Friction) -> None:
-    """Raise a ContactError if a third body cannot be used with this method and friction."""
+def require_layer(layer: object, tangential: Method) -> None:
+    """Raise a ContactError if a third body cannot be used with this method."""
     if not isinstance(layer, ThirdBody):
         raise ContactError(f"layer = {layer!r} is not a contact.ThirdBody")
     if not tangential.elementwise:
         raise ContactError(f"layer: tangential = {tangential.name!r} has no third body; allowed: halfspace")
-    if (friction.velocity != "global" and friction.law != "coulomb") or friction.hot_factor < 1.0:
-        raise ContactError("layer: friction must not depend on local slip or temperature")
 
 
 _Key = tuple[str, str, int, int, Material, bool, int, tuple[float, float, float] | None]
@@ -250,7 +246,7 @@ def _solvers() -> dict[_Key, Solver]:
     return _LATEST.__dict__.setdefault("solvers", {})
 
 
-def _lent(key: _Key, friction: Friction, speed: float) -> Solver:
+def _lent(key: _Key) -> Solver:
     """Lend this thread's solver for the methods, resolution, material and C11, C22, C23 of `key`; make it if needed.
 
     Until it is back, a signal handler that calls `solve` makes another one.
@@ -263,15 +259,12 @@ def _lent(key: _Key, friction: Friction, speed: float) -> Solver:
             tangential=tangential,
             n_strips=n_strips,
             n_elements=n_elements,
-            friction=friction,
             material=material,
-            speed=speed,
             conformal=conformal,
             max_iterations=max_iterations,
         )
         if coefficients is not None:
             solver.calibrate(constant_table(*coefficients))
-        solver.doubted = True  # by `solve`
     return solver
 
 
@@ -283,84 +276,72 @@ def _back(key: _Key, solver: Solver) -> None:
         del solvers[next(iter(solvers))]
 
 
-class _StripProblem(NamedTuple):
-    """One contact problem, to be solved on strips for different creepages and by different methods and resolutions."""
+def _on_strips(
+    separation: Any,
+    creepage: Any,
+    tangential: str = DEFAULT_TANGENTIAL,
+    *,
+    normal: str,
+    size: tuple[int, int],
+    material: Material,
+    conformal: bool,
+    max_iterations: int,
+    coefficients: tuple[float, float, float] | None = None,
+    start: Solution | None,
+    trace: bool,
+    doubted: bool = False,
+    throw: bool = False,
+    **given: Any,
+) -> Solution:
+    """Return the solution of a `Solver`. `coefficients` are C11, C22, C23 to use instead of those of linear theory.
 
-    separation: Separation
-    load: float | None
-    approach: float | None
-    friction: Friction
-    material: Material
-    speed: float
-    normal: str
-    size: tuple[int, int]
-    start: Solution | None
-    conformal: bool
-    max_iterations: int
-    trace: bool
-
-    def solve(
-        self,
-        creepage: Creepage,
-        tangential: str,
-        coefficients: tuple[float, float, float] | None = None,
-        force: Force | None = None,
-        derivatives: bool = False,
-        throw: bool = False,
-    ) -> Solution:
-        """Return the solution. `coefficients` are C11, C22, C23 to use instead of those of linear theory."""
-        key = self.normal, tangential, *self.size, self.material, self.conformal, self.max_iterations, coefficients
-        solver = _lent(key, self.friction, self.speed)
-        solver.told = self.separation.told  # the solver is not the user's, the separation is
-        try:
-            if self.start is not None:
-                solver.start_from(self.start)
-            return solver.solve(
-                self.separation,
-                creepage,
-                load=self.load,
-                approach=self.approach,
-                force=force,
-                friction=self.friction,
-                speed=self.speed,
-                warm=self.start is not None,
-                derivatives=derivatives,
-                throw=throw,
-            )
-        finally:
-            if self.trace:
-                show(solver.trace())
-            _back(key, solver)
+    The solver checks what else is `given`, the arguments of its method `solve`. It is not the user's, so each call is judged,
+    unless it was `doubted` before.
+    """
+    if not isinstance(separation, Separation) and isinstance(separation, Gap):
+        raise ContactError(f"normal = {normal!r} needs a contact.Separation; separation = {separation!r} is on a grid")
+    key = normal, tangential, *size, material, bool(conformal), max_iterations, coefficients
+    solver = _lent(key)
+    solver.told = getattr(separation, "told", set())  # the separation is the user's
+    solver.doubted = doubted
+    try:
+        if start is not None:
+            solver.start_from(start)
+        return solver.solve(separation, creepage, warm=start is not None, throw=throw, **given)
+    finally:
+        if trace:
+            show(solver.trace())
+        _back(key, solver)
 
 
 def _rolling(
-    problem: _StripProblem,
-    creepage: Creepage,
+    first: Solution,
+    bent: Surface | None,
+    load: float | None,
+    friction: Friction,
     division: Division,
     layer: ThirdBody | None,
     progress: Callable[[int, float], None] | None,
 ) -> Callable[[Creepage], Solution] | Pressed:
-    """Return the function from creepage to solution, or the pressed elements that roll. The normal problem is solved now."""
-    first = problem._replace(conformal=False).solve(creepage, DEFAULT_TANGENTIAL)
+    """Return the function from creepage to solution, or the elements that roll, under the pressure of `first`."""
     if first.N <= 0.0:
         return lambda creepage: replace(first, tangential="halfspace", creepage=creepage)
-    surface = Surface.of(problem.separation) if problem.conformal else None
-    return press_solution(first, surface, problem.load, problem.friction, division, layer, progress)
+    return press_solution(first, bent, load, friction, division, layer, progress)
 
 
 def _patch_coefficients(
-    problem: _StripProblem, creepage: Creepage, method: Method
+    on_strips: Callable[..., Solution], creepage: object, method: Method, material: Material
 ) -> tuple[float, float, float] | None:
     """Return C11, C22, C23 of linear theory on the patch; None without contact.
 
     Linear theory is solved on coarse patches with n strips and extrapolated to n → ∞.
     """
-    first = problem.solve(creepage, method.kernel)
+    first = on_strips(creepage, method.kernel)
     if first.N <= 0.0:
         return None
 
     def at(n: int) -> Array:
-        coarse = problem._replace(size=(n, n), start=None, conformal=False)
-        return linear.flexibilities(coarse.solve(creepage, DEFAULT_TANGENTIAL).strips, problem.material, n)
+        coarse = on_strips(creepage, size=(n, n), start=None, conformal=False, doubted=True)
+        return linear.flexibilities(coarse.strips, material, n)
 
-    return linear.coefficients(linear.extrapolated(at), first.strips, problem.material)
+    return linear.coefficients(linear.extrapolated(at), first.strips, material)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from dataclasses import replace
-from types import MappingProxyType
+from types import MappingProxyType, UnionType
 from typing import Any
 
 import numpy as np
@@ -52,6 +52,21 @@ def require_conformal(tangential: Method) -> None:
     """Raise a ContactError if the tangential method gives forces only, because it then needs a plane contact."""
     if not tangential.fields:
         raise ContactError(f"conformal: tangential = {tangential.name!r} is only for a plane contact")
+
+
+def require_separation(separation: object, kind: type | UnionType) -> None:
+    """Raise a ContactError unless `separation` is one of this kind."""
+    if not isinstance(separation, kind):
+        if isinstance(getattr(separation, "separation", None), kind):
+            raise ContactError(f"separation is a {type(separation).__name__}; use patch.separation")
+        raise ContactError(f"separation = {separation!r} is not a contact.Separation")
+
+
+def require_amount(load: object, approach: object) -> float:
+    """Return the load [N] or the approach [m], one of which is given, or raise a ContactError."""
+    if (load is None) == (approach is None):
+        raise ContactError(f"exactly one of load and approach is needed; load = {load}, approach = {approach}")
+    return require_number("load", load, 0.0) if load is not None else require_number("approach", approach)
 
 
 class Solver(OwnsArrays):
@@ -154,8 +169,12 @@ class Solver(OwnsArrays):
     def set_surface(self, friction: float | Friction, speed: float) -> None:
         """Set the friction [-] and the rolling speed [m/s] for the following calls that do not give their own."""
         surface, velocity = as_friction(friction), require_number("speed", speed, 0.0)
-        self._friction, self._speed = surface, velocity
+        self._given, self._friction, self._speed = friction, surface, velocity
         set_surface(self._case, self._friction, self._speed)
+
+    def _is_given(self, friction: float | Friction) -> bool:
+        """Return whether this is the friction of the last call."""
+        return type(friction) is type(self._given) and (friction is self._given or friction == self._given)
 
     @one_thread
     def forget(self) -> None:
@@ -301,18 +320,13 @@ class Solver(OwnsArrays):
         force: object = None,
     ) -> int:
         """Check the arguments, fill the case and call the kernel; return the number of strips."""
-        if not isinstance(separation, Separation):
-            raise ContactError(f"separation = {separation!r} is not a contact.Separation")
-        creepage = as_creepage(creepage)
-        if (load is None) == (approach is None):
-            raise ContactError(f"exactly one of load and approach is needed; load = {load}, approach = {approach}")
-        amount = require_number("load", load, 0.0) if load is not None else require_number("approach", approach)
+        require_separation(separation, Separation)
+        creepage, amount = as_creepage(creepage), require_amount(load, approach)
         wanted = None if force is None else as_numbers(wanted_force(force))
         friction, speed = surface
-        if (friction is not None and friction is not self._friction) or (speed is not None and speed != self._speed):
-            within(self.set_surface)(
-                self._friction if friction is None else friction, self._speed if speed is None else speed
-            )
+        friction = self._given if friction is None or self._is_given(friction) else friction
+        if friction is not self._given or (speed is not None and speed != self._speed):
+            within(self.set_surface)(friction, self._speed if speed is None else speed)
         if not self.doubted:  # at the first call only, which may be one of millions
             self.doubted = True
             vector = creepage.longitudinal, creepage.lateral, creepage.spin
