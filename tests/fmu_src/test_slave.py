@@ -2,13 +2,13 @@
 
 import math
 import sys
-from typing import ClassVar
 
 import numpy as np
 import pytest
 from pythonfmu.enums import Fmi2Status
 
 from contact_fmu.description import model_description
+from contact_fmu.native.component import Component
 from contact_fmu.python.slave import INTERFACES, TableSlave
 from contact_fmu.variables import Enumeration, Table, output, parameter, signal
 
@@ -30,13 +30,14 @@ TABLE = Table(
 MODE, MODE_INTEGER, X1, X2, Y, Q1, Q2, STEPS, STEPS_REAL, SLOW = range(10)
 
 
-class Quotient(TableSlave):
-    lazy = ("slow",)
-    failures: ClassVar = {3: "y = 3 is not to our taste"}
-    calls = 0
+COMPONENT = Component(kind="none", table=TABLE, lazy=("slow",), failures={3: "y = 3 is not to our taste"})
 
-    def __init__(self):
-        super().__init__(TABLE, model_description(TABLE, INTERFACES)[0], instance_name="q", resources="/nowhere")
+
+class Model:
+    """Stands for an `Instance`."""
+
+    def __init__(self, component, folder):
+        self.memory, self.calls = np.zeros((2, 1)), 0
 
     def solve(self, values, h):
         if values[MODE] == 2:
@@ -46,9 +47,18 @@ class Quotient(TableSlave):
         values[STEPS] += h > 0.0
         return int(y == 3.0) * 3
 
+    def accept(self, values, h):
+        pass
+
     def solve_lazy(self, values):
         self.calls += 1
         values[SLOW] = 2.0 * values[X1] / values[Y]
+
+
+class Quotient(TableSlave):
+    def __init__(self):
+        guid = model_description(TABLE, INTERFACES)[0]
+        super().__init__(COMPONENT, guid, Model, instance_name="q", resources="/nowhere")
 
 
 def messages(slave, status):
@@ -195,10 +205,10 @@ def test_a_state_can_be_set_before_initialisation():
 
 def test_a_lazy_row_is_computed_once_when_read_and_belongs_to_the_last_step(slave):
     slave.do_step(0.0, 0.1)
-    assert slave.calls == 0
+    assert slave._model.calls == 0
     slave.set_real([X1], [40.0])  # for the next step
     assert slave.get_real([SLOW]) == slave.get_real([SLOW]) == [0.5]
-    assert slave.calls == 1
+    assert slave._model.calls == 1
 
 
 def test_a_lazy_row_ignores_a_bad_input_for_the_next_step(slave):
@@ -269,7 +279,7 @@ def test_the_choice_by_number_is_that_of_the_enumeration():
 
 def test_another_version_of_the_package_is_refused_at_instantiation():
     with pytest.raises(RuntimeError, match="FMU Quotient was built with another version"):
-        TableSlave(TABLE, "{another}", instance_name="q", resources="/nowhere")
+        TableSlave(COMPONENT, "{another}", Model, instance_name="q", resources="/nowhere")
 
 
 def test_instances_leave_the_module_path_as_it_was_and_release_their_library_at_the_end(monkeypatch):

@@ -189,6 +189,16 @@ def test_a_restored_or_serialised_state_continues_bit_by_bit(kind):
     assert kind.drive(other, kind.steps) == wanted
 
 
+def test_a_state_from_before_the_initialisation_begins_the_run_again_bit_by_bit(kind):
+    fmu = kind.open()
+    kind.prepare(fmu)
+    state = fmu.fmu.getFMUstate()
+    wanted = kind.drive(fmu.initialize(), 0)
+    fmu.fmu.setFMUstate(state)
+    assert kind.drive(fmu.initialize(), 0) == wanted
+    fmu.fmu.freeFMUstate(state)
+
+
 def test_reset_restores_every_start(kind):
     wanted = kind.open().initialize().all("input", "output", "parameter")
     fmu = kind.open()

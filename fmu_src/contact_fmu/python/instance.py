@@ -52,7 +52,7 @@ class Instance:
         self._functions = {name: _function(component.kind, name) for name in kinds.SIGNATURES}
         content = [part for one in component.resources for part in _numbers(folder, one)]
         self._given = np.concatenate([*content, np.zeros(1)]), np.append(component.own, 0)
-        self._work, self._prepared = zeros(0), np.zeros(0)
+        self._work, self._prepared, self._size = zeros(0), np.zeros(0), 0
         #: Warm start of the next step, and that of the last one.
         self.memory = np.zeros((2, 0))
 
@@ -89,12 +89,11 @@ class Instance:
         A warm start of another size is discarded.
         """
         parameters = values[: self._n_parameters]
-        if np.array_equal(parameters, self._prepared):
+        if self.memory.shape[1] == self._size and np.array_equal(parameters, self._prepared):
             return 0
-        self._prepared = np.zeros(0)
-        size = self._call("memory", values)
-        if size != self.memory.shape[1]:
-            self.memory = np.zeros((2, size))
+        self._prepared, self._size = np.zeros(0), self._call("memory", values)
+        if self._size != self.memory.shape[1]:
+            self.memory = np.zeros((2, self._size))
         self._work = zeros(self._call("size", values))
         if number := self._call("prepare", values, self._work):
             return number

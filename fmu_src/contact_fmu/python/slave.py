@@ -1,4 +1,4 @@
-"""pythonfmu slave that is driven by a variable table: FMI's state machine. A model adds what computes the values.
+"""pythonfmu slave that is driven by a variable table: FMI's state machine. An `Instance` computes the values.
 
 pythonfmu 0.7.0 turns an exception in a callback into fmi2Fatal, and the fifth one crashes the host (measured). Therefore no
 exception leaves a callback. What is refused is logged, and `c/entry.c` returns the status of the worst message of a call.
@@ -9,9 +9,10 @@ from __future__ import annotations
 import json
 import math
 import sys
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Sequence
 from enum import StrEnum
 from functools import wraps
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -23,9 +24,11 @@ from contact import __version__
 from contact.arrays import Array
 from contact.errors import ContactError
 from ..description import LOG_CATEGORIES, model_description
+from ..native.component import Component
 from ..variables import Causality, Kind, Table
 from .doubting import Doubting
 from .ending import release_once
+from .instance import Instance
 
 #: Capabilities of this packaging: attributes of the element CoSimulation.
 INTERFACES = {
@@ -97,16 +100,15 @@ def _rounding(time: float, h: float) -> float:
 
 
 class TableSlave(Fmi2Slave):
-    """Co-simulation slave of an FMU with this table. Its values are one array, indexed by value reference.
-
-    A model implements `solve`, and `solve_lazy` for outputs that are costly and seldom read. One with a state besides its
-    values also implements `accept`, `memory` and `recall`.
+    """Co-simulation slave of an FMU. Its values are one array, indexed by value reference, which an `Instance` computes.
 
     Parameters
     ----------
-    table : Table
+    component : Component
     guid : str
         Guid in the FMU's modelDescription.xml. It must equal the guid that the installed package computes.
+    make : callable
+        Returns the instance for the component and the folder of its resources.
 
     Raises
     ------
@@ -116,25 +118,22 @@ class TableSlave(Fmi2Slave):
 
     log_categories = LOG_CATEGORIES
 
-    #: Rows that `solve_lazy` computes only when a host reads them.
-    lazy: tuple[str, ...] = ()
-    #: Messages by number: those of a warning, and those with which a step is discarded.
-    warnings: Mapping[int, str] = {}
-    failures: Mapping[int, str] = {}
-
-    def __init__(self, table: Table, guid: str, **kwargs: Any) -> None:
+    def __init__(
+        self, component: Component, guid: str, make: Callable[[Component, Path], Any] = Instance, **kwargs: Any
+    ) -> None:
         super().__init__(**kwargs)
         if self.resources in sys.path:
             # pythonfmu adds this entry for every instance and never removes it. The script is already imported.
             sys.path.remove(self.resources)
         release_once(self.resources)
+        table = component.table
         if guid != _guid(table):
             reason = (
                 f"this FMU {table.name} was built with another version of wheelrail-contact than the installed "
                 f"{__version__}: install that version, or build the FMU anew"
             )
             raise RuntimeError(reason)
-        self.table = table
+        self.component, self.table = component, table
         self.guid = guid
         self.phase = Phase.INSTANTIATED
         self.time, self.stop_time = 0.0, math.inf
@@ -143,6 +142,7 @@ class TableSlave(Fmi2Slave):
         self.lazy_is_stale = False
         self.inputs_are_new = True
         self.said = 0  # number of the last warning, which is logged once while it lasts
+        self._model = make(component, Path(self.resources))
         self._index(table)
 
     def _index(self, table: Table) -> None:
@@ -160,7 +160,7 @@ class TableSlave(Fmi2Slave):
         }
         self._readable = {kinds: frozenset(r for r, s in every if s.row.kind in kinds) for kinds in _CALLS}
         self._settable = {(p, kinds): settable[p] & self._readable[kinds] for p in Phase for kinds in _CALLS}
-        self._lazy = [r for name in self.lazy for r in table.references(name)]
+        self._lazy = [r for name in self.component.lazy for r in table.references(name)]
         self._computed = np.array([r for r, s in every if not s.row.is_given], np.int64)
         self._checked = np.array([r for r, s in every if s.row.initial == "exact" or r in inputs], np.int64)
         scalars = [table.scalars[r] for r in self._checked]
@@ -180,29 +180,6 @@ class TableSlave(Fmi2Slave):
             for row in table.rows
             if row.integral_of
         ]
-
-    # ---------------------------------------------------------------- implemented by a model
-
-    def solve(self, values: Array, h: float) -> int:
-        """Compute the outputs in `values` after a step of `h` [s], which is 0 during initialisation.
-
-        Return the number of a message. Nothing else may change until `accept`.
-        """
-        raise NotImplementedError
-
-    def accept(self, values: Array, h: float) -> None:
-        """Let the next step start from the last solution, whose values and step these are."""
-
-    def solve_lazy(self, values: Array) -> None:
-        """Compute the `lazy` rows that belong to `values`."""
-        raise NotImplementedError
-
-    def memory(self) -> str | None:
-        """Return the state of the model other than its values, as text."""
-        return None
-
-    def recall(self, memory: str | None) -> None:
-        """Restore the state of the model from `memory`. The values are already restored."""
 
     # ---------------------------------------------------------------- life of an instance
 
@@ -256,21 +233,21 @@ class TableSlave(Fmi2Slave):
         self.inputs_are_new = False
         self._choose()
         values = self._checked_values()
-        number = self.solve(values, h)
-        if number in self.failures:
-            raise ContactError(self.failures[number])
+        number = self._model.solve(values, h)
+        if number in self.component.failures:
+            raise ContactError(self.component.failures[number])
         for total, rate, speed in self._totals:
             per_second = 1.0 if speed is None else abs(values[speed])
             values[total] += (per_second if rate is None else per_second * values[rate]) * h
         values[self._mirrors] = values[self._shown]
         self._require_finite(values, self._computed)
-        self.accept(values, h)
+        self._model.accept(values, h)
         self.values[self._computed] = values[self._computed]
-        self.solved, self.lazy_is_stale = values, bool(self.lazy)
+        self.solved, self.lazy_is_stale = values, bool(self._lazy)
         for message in self._doubts.messages(values):
             self.log(message, Fmi2Status.warning)
-        if number != self.said and number in self.warnings:
-            self.log(self.warnings[number], Fmi2Status.warning)
+        if number != self.said and number in self.component.warnings:
+            self.log(self.component.warnings[number], Fmi2Status.warning)
         self.said = number
 
     @guarded
@@ -283,7 +260,7 @@ class TableSlave(Fmi2Slave):
         """Compute the lazy rows of the last step."""
         self.lazy_is_stale = False
         values = self.solved.copy()
-        self.solve_lazy(values)
+        self._model.solve_lazy(values)
         self._require_finite(values, self._lazy)
         self.values[self._lazy] = values[self._lazy]
 
@@ -388,7 +365,7 @@ class TableSlave(Fmi2Slave):
             "solved": self.solved.tolist(),
             "lazy_is_stale": self.lazy_is_stale,
             "inputs_are_new": self.inputs_are_new,
-            "memory": self.memory(),
+            "memory": self._model.memory.tobytes().hex(),
         }
 
     @guarded
@@ -397,6 +374,7 @@ class TableSlave(Fmi2Slave):
             self.phase = Phase.LOST
             raise ValueError(f"this is not a state of the FMU {self.table.name}; set another one")
         both = np.array([state["values"], state["solved"]], np.float64)
+        memory = np.frombuffer(bytes.fromhex(state["memory"])).reshape(2, -1).copy()
         if both.shape != (2, self.values.size):
             raise ValueError(f"this state of the FMU {self.table.name} has {both.shape[1]} values")
         self.phase = Phase(state["phase"])
@@ -404,7 +382,7 @@ class TableSlave(Fmi2Slave):
         self.values, self.solved = both
         self.lazy_is_stale = state["lazy_is_stale"]
         self.inputs_are_new = state["inputs_are_new"]
-        self.recall(state["memory"])
+        self._model.memory = memory
 
     @staticmethod
     def _fmu_state_to_bytes(state: dict[str, Any]) -> bytes:
