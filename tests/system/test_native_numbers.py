@@ -56,14 +56,14 @@ def test_windows_library_equals_the_solver(windows, cases):
 
 
 def test_python_packaging_equals_the_solver(open_fmu, cases):
-    fmu, rows = open_fmu(NAME), []
-    for case in cases:
+    fmu, rows, few = open_fmu(NAME), [], cases[:100]  # the functions are those of the native one
+    for case in few:
         fmu.fmu.reset()
         fmu.update(case.values)
         fmu.initialize()
         fmu.step(0.0, STEP)
         rows.append(list(fmu.read(OUTPUTS).values()))
-    check(cases, np.array(rows))
+    check(few, np.array(rows))
 
 
 def test_creep_stiffness_of_both_packagings_is_the_same(open_native, open_fmu):
@@ -76,8 +76,8 @@ def test_creep_stiffness_of_both_packagings_is_the_same(open_native, open_fmu):
             fmu.initialize()
             fmu.step()
         wanted = other.read(names)
-        bound = max(map(abs, wanted.values())) + 1.0
-        assert one.read(names) == pytest.approx(wanted, abs=1e-7 * bound)
+        assert one.read(names) == wanted
+        assert any(wanted.values())
 
 
 def test_strips_that_interact_go_on_from_the_last_step(open_native):
