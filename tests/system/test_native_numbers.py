@@ -69,15 +69,16 @@ def test_python_packaging_equals_the_solver(open_fmu, cases):
 def test_creep_stiffness_of_both_packagings_is_the_same(open_native, open_fmu):
     one, other = open_native(), open_fmu(NAME)
     names = [f"creep_stiffness[{i},{j}]" for i in (1, 2, 3) for j in (1, 2, 3)]
+    slopes = []
     for seed in (2, 3, 5, 7, 11, 13):
         for fmu in (one, other):
             fmu.fmu.reset()
             fmu.update(random_case(seed).values)
             fmu.initialize()
             fmu.step()
-        wanted = other.read(names)
-        assert one.read(names) == wanted
-        assert any(wanted.values())
+        assert one.read(names) == other.read(names)
+        slopes += one.read(names).values()
+    assert any(slopes)
 
 
 def test_strips_that_interact_go_on_from_the_last_step(open_native):

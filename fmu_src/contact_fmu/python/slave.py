@@ -169,17 +169,13 @@ class TableSlave(Fmi2Slave):
         self._least = np.maximum(least, -sys.float_info.max)
         self._greatest = np.minimum([s.maximum for s in scalars], sys.float_info.max)
         self._doubts = Doubting(table)
-        at = {name: span.start for name, span in table.span.items()}
+        at: dict[str | None, int] = {name: span.start for name, span in table.span.items()}
         self._choices = [(at[row.name], at[row.twin_of], row.maximum) for row in table.twins if row.is_given]
         mirrors = [(row.name, row.twin_of) for row in table.twins if not row.is_given]
         self._mirrors, self._shown = (
             np.array([r for pair in mirrors for r in table.references(pair[k])], np.int64) for k in range(2)
         )
-        self._totals = [
-            (at[row.name], *(None if name is None else at[name] for name in row.integral_of))
-            for row in table.rows
-            if row.integral_of
-        ]
+        self._totals = [(at[name], *(at.get(one) for one in of)) for name, of in self.component.totals.items()]
 
     # ---------------------------------------------------------------- life of an instance
 
@@ -235,7 +231,7 @@ class TableSlave(Fmi2Slave):
         values = self._checked_values()
         number = self._model.solve(values, h)
         if number in self.component.failures:
-            raise ContactError(self.component.failures[number])
+            raise ContactError(self._reason(number, values))
         for total, rate, speed in self._totals:
             per_second = 1.0 if speed is None else abs(values[speed])
             values[total] += (per_second if rate is None else per_second * values[rate]) * h
@@ -270,6 +266,12 @@ class TableSlave(Fmi2Slave):
         if not finite.all():
             name = self.table.scalars[references[int(np.argmin(finite))]].name
             raise ContactError(f"{name} has no finite value for these inputs")
+
+    def _reason(self, number: int, values: Array) -> str:
+        """Return why a step is discarded. Where the text begins with the name of a variable, it gets its value."""
+        name, colon, text = self.component.failures[number].partition(": ")
+        span = self.table.span.get(name)
+        return f"{name}{colon}{text}" if span is None else f"{name} = {values[span.start]:g}: {text}"
 
     def _choose(self) -> None:
         """Let the choices that are not 0 be the values of their enumerations."""
