@@ -22,12 +22,9 @@ from contact.kernels.cubic import locate, slopes
 from contact.kernels.enumerations import LoadKind, Status
 from contact.kernels.hertz import local_factors
 from contact.kernels.normal.curvature import base_of, floor_of, floored, half_width, lateral_curvature
-from contact.kernels.normal.deepest import first_approach, lowest
+from contact.kernels.normal.deepest import first_approach, lowest, touches
 from contact.kernels.normal.lay import at_end, find_patches, lay_strips, least_point
 from contact.kernels.rows import Sample, Strip
-
-#: An overlap below this fraction of the separation's width is round-off, not contact.
-NO_OVERLAP = 1e-14
 
 #: Largest ratio of the fall of the deformation to the fall of the gap (`_keep_rising`).
 STEEPEST = 20.0
@@ -193,6 +190,8 @@ def solve_load(sep, place, case, across, work, result):
     y, n, edges = sep.y, sep.y.size, result.edges
     load, modulus = case.amount, case.G / (1.0 - case.nu)
     delta = first_approach(y, sep.g, sep.A, n, place, load, modulus, work)
+    if not touches(y, n, delta):  # the load is below round-off
+        return 0.0
     prepare(y, sep.g, sep.A, n, result.touch, delta, work)
     delta = estimated_approach(y, n, load, modulus, work, delta)
     low, high = 0.0, math.inf
@@ -241,17 +240,17 @@ def analyn(sep, case, across, work, strips, result):
     result.touch = g_least
     by_approach = case.load_kind == LoadKind.APPROACH
     load, delta = case.amount, case.amount - g_least
-    if delta <= NO_OVERLAP * (y[n - 1] - y[0]) if by_approach else load <= 0.0:
+    if not by_approach:
+        delta = solve_load(sep, place, case, across, work, result) if load > 0.0 else 0.0
+    result.approach = case.amount if by_approach else g_least
+    if not touches(y, n, delta):
         result.status = Status.NO_CONTACT
-        result.approach = case.amount if by_approach else g_least
         return 0
     if by_approach:
         prepare(y, g, A, n, g_least, delta, work)
-    else:
-        delta = solve_load(sep, place, case, across, work, result)
     N, stiffness, n_strips = fill_strips(sep, delta, modulus, across, work, edges, strips)
-    if N <= 0.0 or delta <= NO_OVERLAP * (y[n - 1] - y[0]):  # the load is below round-off
-        result.status, result.approach = Status.NO_CONTACT, g_least
+    if N <= 0.0:
+        result.status = Status.NO_CONTACT
         return 0
     if not by_approach:
         # the pressure is scaled to remove the rest of round-off, or of the step at which two patches merge

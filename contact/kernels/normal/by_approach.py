@@ -12,8 +12,8 @@ from contact.kernels.enumerations import LoadKind, Normal, Status
 from contact.kernels.normal import semi_winkler as sw
 from contact.kernels.normal import srst as sr
 from contact.kernels.normal import stripes
-from contact.kernels.normal.analyn import NO_OVERLAP, fill_strips
-from contact.kernels.normal.deepest import deepest, first_approach, lowest
+from contact.kernels.normal.analyn import fill_strips
+from contact.kernels.normal.deepest import deepest, first_approach, lowest, touches
 from contact.kernels.normal.kik_piotrowski import PENETRATION, deepest_half_length
 from contact.kernels.normal.kik_piotrowski_2008 import stretch
 from contact.kernels.normal.kpec import share_parabola
@@ -99,7 +99,7 @@ def by_approach(sep, case, across, work, strips, result):
     if by_load:
         delta = first_approach(y, sep.g, sep.A, n, place, load, modulus, work) if load > 0.0 else 0.0
     result.approach = place[1] + delta
-    if delta <= NO_OVERLAP * (y[n - 1] - y[0]):
+    if not touches(y, n, delta):
         result.status = Status.NO_CONTACT
         return 0
 

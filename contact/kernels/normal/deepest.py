@@ -10,6 +10,8 @@ from contact.kernels.normal.curvature import base_of, floor_of, floored, half_wi
 from contact.kernels.normal.lay import least_point
 from contact.kernels.rows import Sample
 
+#: Approach over the width of the data below which bodies do not touch: gap and approach are the same to within round-off.
+NO_OVERLAP = 1e-14
 #: Number of parabolas like the overlap, one after the other, in the first guess of an approach.
 _PARABOLAS = 2
 
@@ -37,6 +39,12 @@ def lowest(y, g, n, work):
     """Return position and value of the smallest gap. Fill GAP_SLOPE of `work` with the slopes of the gap."""
     slopes(y, g, n, work[Sample.GAP_SLOPE])
     return least_point(y, g, work[Sample.GAP_SLOPE], n)
+
+
+@kernel
+def touches(y, n, delta):
+    """Return whether an approach above first touch is more than round-off."""
+    return delta > NO_OVERLAP * (y[n - 1] - y[0])
 
 
 @kernel
@@ -68,10 +76,15 @@ def unit_load(point, modulus):
 
 @kernel
 def first_approach(y, g, A, n, place, load, modulus, work):
-    """Return the approach at which a parabola like the overlap carries `load` > 0 (Hertz), to begin a search with."""
+    """Return the approach at which a parabola like the overlap carries `load` > 0 (Hertz), to begin a search with.
+
+    An approach within round-off may be any other one there.
+    """
     A0 = A[locate(y, n, place[0], 0)]
     delta = approach_of(A0, A0, load, modulus)
     for _ in range(_PARABOLAS):
+        if not touches(y, n, delta):
+            break
         half = half_width(y, g, work[Sample.GAP_SLOPE], n, place[1], delta)
         delta = approach_of(A0, delta / (half * half), load, modulus)
     return delta

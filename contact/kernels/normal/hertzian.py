@@ -5,8 +5,7 @@ import math
 from contact.core import kernel
 from contact.kernels.cubic import locate
 from contact.kernels.enumerations import LoadKind, Status
-from contact.kernels.normal.analyn import NO_OVERLAP
-from contact.kernels.normal.deepest import deepest, first_approach, lowest, unit_load
+from contact.kernels.normal.deepest import deepest, first_approach, lowest, touches, unit_load
 from contact.kernels.normal.lay import lay_strips
 from contact.kernels.rows import Strip
 
@@ -21,6 +20,8 @@ def _approach_under(load, sep, place, modulus, work, result):
     y, n = sep.y, sep.y.size
     delta = first_approach(y, sep.g, sep.A, n, place, load, modulus, work)
     low, high, before, left_before = 0.0, math.inf, 0.0, -1.0
+    if not touches(y, n, delta):  # the load is below round-off
+        return 0.0
     for iteration in range(_MAX_ITERATIONS):
         result.iterations = iteration
         unit = unit_load(deepest(y, sep.g, sep.A, n, place, delta, work), modulus)
@@ -60,7 +61,7 @@ def hertzian(sep, case, across, work, strips, result):
     else:
         delta = _approach_under(case.amount, sep, place, modulus, work, result) if case.amount > 0.0 else 0.0
         result.approach = place[1] + delta
-    if delta <= NO_OVERLAP * (y[n - 1] - y[0]):
+    if not touches(y, n, delta):
         result.status = Status.NO_CONTACT
         return 0
     # at approach delta: a² = delta/((1+alpha)A), b² = delta/((1+beta)B), p0 = 2 E* delta/(pi n r a), N = 2/3 pi a b p0
