@@ -102,7 +102,8 @@ def solve(
         influence numbers are those of the bent surface (`contact.halfspace.curved`), and N contains the part of the
         traction along the plane's normal.
     max_iterations : int
-        Most iterations of the strip half space, 1 to 1000. When they are used up, the status is NOT_CONVERGED.
+        Most iterations of the strip half space, 1 to 1000. What is not at rest then is iterated as often once more if they
+        are 60 or more, with the ends of the patches free again. After that the status is NOT_CONVERGED.
     layer : contact.ThirdBody
         A layer between the bodies that shears and yields; only with tangential="halfspace".
     start : Solution

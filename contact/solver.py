@@ -91,8 +91,8 @@ class Solver(OwnsArrays):
     n_samples : int
         Number of separation samples to allocate memory for. A larger separation causes one reallocation.
     max_iterations : int
-        Most iterations of the strip half space, 1 to 1000. They cap the time of a call. When they are used up, the status
-        is NOT_CONVERGED.
+        Most iterations of the strip half space, 1 to 1000. They cap the time of a call. What is not at rest then is iterated
+        as often once more if they are 60 or more. After that the status is NOT_CONVERGED.
 
     Raises
     ------

@@ -70,7 +70,7 @@ ITERATION = record(
     parted:int      number of iterations after which panels were parted
     stiff:int       1 if the middles of skewed strips are straightened more from here on
     events:int      of this iteration, bits of Event
-    exact:int       1 if the residuals are below the tolerance
+    last:int        1 if the pressures are those of the final unknowns
     converged:int   1 at rest
     best            error over load of the best iterate since the ends were fixed
     """,

@@ -36,6 +36,16 @@ def test_approach_gives_the_load_back(normal, ellipse):
     np.testing.assert_allclose(by_approach.N, 6e4, rtol=1e-4 if iterative else 1e-9)
 
 
+@pytest.mark.parametrize("normal", list(contact.methods().batched.normal))
+@pytest.mark.parametrize("load", [1e-300, 1e-100])
+def test_a_load_whose_approach_is_round_off_is_no_contact(normal, load, ellipse):
+    """The approach of the smaller load is 0 to the computer, by which the half width was divided: a trap (`make traps`)."""
+    sol = contact.solve(ellipse, NO_CREEP, load=load, normal=normal)
+    assert sol.status == contact.Status.NO_CONTACT
+    assert sol.N == 0.0
+    assert sol.strips.y.size == 0
+
+
 def test_a_patch_narrower_than_the_sampling_is_resolved():
     # semi-width 0.01 mm between samples 1 mm apart, and off the samples
     y = np.linspace(-20e-3, 20e-3, 41) + 0.37e-3

@@ -11,6 +11,7 @@ from contact.kernels.normal.turned import turned_ellipse
 from tests.separations import turned
 
 NO_CREEP = contact.Creepage()
+HALF_SPACE = {"normal": "halfspace", "tangential": "halfspace", "n_strips": 60, "n_elements": 60}
 #: Half curvatures across and along, angle of the long axis to the rolling direction [degrees].
 TURNED = [(P, Q, angle) for P, Q in ((1.0, 1.5), (1.0, 5.0), (1.0, 30.0)) for angle in (2, 15, 40, 75)]
 
@@ -123,6 +124,32 @@ def test_lobes_that_a_thin_bridge_joins_come_to_rest(rail, y, yaw, roll, load):
     pair = wheelset.Pair(profile.s1002(), profile.named(rail, inclination=1 / 40 if rail == "54E1" else 1 / 20))
     (patch,) = (p for p in pair.contacts(wheelset.Pose(y=y, yaw=yaw, roll=roll), load=load) if p.load)
     assert contact.solve(patch.separation, NO_CREEP, load=patch.load).converged
+
+
+@pytest.mark.parametrize(
+    ("wheel", "rail", "slope", "y", "yaw", "roll", "load"),
+    [
+        ("S1002", "54E1", 40, 7.696e-3, -24.2556e-3, 2.121e-3, 141.3e3),
+        ("S1002", "54E1", 20, 5.2031e-3, 12.0139e-3, -2.8637e-3, 26.68e3),
+        ("S1002", "49E1", 40, 8.0825e-3, 22.8273e-3, 3.009e-3, 68.39e3),
+        ("S1002", "49E1", 40, 8.0825e-3, 22.8273e-3, 3.009e-3, 69.07e3),
+        ("1/40", "49E1", 40, 6.5784e-3, -16.647e-3, 0.0241e-3, 56.5e3),
+    ],
+)
+def test_what_finds_no_rest_is_iterated_once_more(wheel, rail, slope, y, yaw, roll, load):
+    """The ends were fixed before they had come together over a bridge, or inside the contact, and stayed there. As many
+    iterations from there with ends that move bring them to rest; a user who caps the iterations below 60 gets no more."""
+    pair = wheelset.Pair(profile.named(wheel), profile.named(rail, inclination=1 / slope))
+    (patch,) = (p for p in pair.contacts(wheelset.Pose(y=y, yaw=yaw, roll=roll), load=load) if p.load)
+    found = contact.solve(patch.separation, NO_CREEP, load=patch.load)
+    exact = contact.solve(patch.separation, NO_CREEP, load=patch.load, **HALF_SPACE)
+    assert found.converged
+    assert found.iterations > 16
+    assert found.max_pressure == pytest.approx(exact.max_pressure, rel=0.03)
+    assert found.approach == pytest.approx(exact.approach, rel=0.01)
+    capped = contact.solve(patch.separation, NO_CREEP, load=patch.load, max_iterations=59, throw=False)
+    assert capped.iterations <= 59
+    assert not capped.converged
 
 
 #: Rows y [mm], g [µm], A [1/m] and x_c [mm] of a wheel `eps` on a rail 60E2 (1:20) with a yaw of 28 mrad, where its parabolas

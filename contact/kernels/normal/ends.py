@@ -139,10 +139,10 @@ def end_move(vectors, n, first, step, cosines, frozen, calm):
         vectors[Vector.END, first] = 0.0
         return 0.0
     wanted, share = _wanted(p0, p1, p2, vectors[Vector.P, first + 3 * step] if n > 3 else math.inf)
+    if n >= 2 * _COARSEST:
+        wanted = _by_groups(vectors, n, first, step, cosines, wanted)
     if frozen and spur and not punch:
         wanted = max(wanted, 1.0)
-    elif n >= 2 * _COARSEST and not frozen:
-        wanted = _by_groups(vectors, n, first, step, cosines, wanted)
     vectors[Vector.END, first] = share
     return END_STEP * wanted * (1.0 + cosines[1])
 

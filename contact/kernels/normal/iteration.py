@@ -41,8 +41,7 @@ FREEZE = 16
 PLAIN = 22
 #: The same of strips whose offsets count in full. Skewed strips are mixed then too, as long as their residuals fall.
 PLAIN_SKEWED = 18
-#: Iteration from which on strips that are not in line take half the step, and few of them are straightened more. Some swing
-#: for ever.
+#: Iteration from which on strips that are not in line take half the step, and few of them are straightened more: some swing.
 DAMPED = 24
 #: Iteration from which on the ends keep between the places from which they moved outwards and inwards.
 BRACKET = 12
@@ -93,7 +92,7 @@ def _start_afresh(problem, state):
 @kernel
 def begin(problem, n_panels, most, state):
     """Set the state before the first of `most` iterations. The last solution left `n_panels` panels, 0 for a cold start."""
-    state.number, state.error, state.load, state.exact, state.converged = 0, math.inf, 0.0, 0, 0
+    state.number, state.error, state.load, state.last, state.converged = 0, math.inf, 0.0, 0, 0
     # a warm start that finds no rest leaves the cold one at least as many iterations, or takes all
     state.patience = WARM if most >= 2 * WARM else most
     if n_panels > 0:
@@ -101,6 +100,16 @@ def begin(problem, n_panels, most, state):
         _reset(problem, 1, state)
     else:
         _start_afresh(problem, state)
+
+
+@kernel
+def begin_again(problem, state):
+    """Begin anew from the present unknowns, with ends that move again. Middles stay as much straightened as they are."""
+    approach, stiff = state.approach, state.stiff
+    state.number += 1
+    _reset(problem, 0, state)
+    state.approach, state.stiff, state.last, state.converged = approach, stiff, 0, 0
+    problem.workspace.space.vectors[Vector.ACTIVE] = 1.0
 
 
 @kernel
@@ -182,12 +191,8 @@ def _fill_step(problem, state):
     and without skew always.
     """
     workspace, panels, skewed = problem.workspace, problem.panels, problem.skew > 0.0
-    rule, vectors, n, age = (
-        workspace.rule,
-        workspace.space.vectors,
-        workspace.rule.across.nodes.size,
-        state.number - state.begun,
-    )
+    rule, vectors = workspace.rule, workspace.space.vectors
+    n, age = rule.across.nodes.size, state.number - state.begun
     plain = PLAIN_SKEWED if problem.skew >= 1.0 else PLAIN
     frozen, before = age >= FREEZE, state.descending
     state.descending = 1 if _can_descend(problem, state) else 0
@@ -313,7 +318,7 @@ def accept(problem, state):
     exact = state.cut == 0 and error < tolerance * state.load and moved < 2.0 * tolerance
     settled = state.descending != 0 and state.left < LEFT * tolerance and error < close * state.load and moved < close
     calm = problem.skew > 0.0 and age >= FREEZE and state.cut == 0 and error < ACCEPTABLE * state.load and moved < close
-    state.found, state.exact = 0, 1 if exact else 0
+    state.found = 0
     if _part(problem, state):
         return False
     if exact or settled or calm:
@@ -321,6 +326,7 @@ def accept(problem, state):
             _stiffen(state)
         elif not _search(problem, state, GHOST):
             state.converged = 1 if exact or settled else 0
+            state.last = 0 if settled and not exact else 1
             return True
     elif _seeks(problem, state):
         _search(problem, state, GHOST if state.searched != 0 else EARLY_GHOST)
@@ -383,16 +389,11 @@ def step(problem, state):
 @kernel
 def finish(problem, state):
     """Leave the pressures of the final unknowns: those at rest, or else the best ones."""
-    if state.converged != 0 and state.exact != 0:
+    if state.last != 0:
         return
+    n, vectors = problem.workspace.rule.across.nodes.size, problem.workspace.space.vectors
     if state.converged != 0:
-        advance(
-            problem.workspace.rule.across.nodes.size,
-            state.n_panels,
-            problem.panels,
-            problem.workspace.space.vectors,
-            problem.skew > 0.0,
-        )
+        advance(n, state.n_panels, problem.panels, vectors, problem.skew > 0.0)
     elif state.n_panels > 0 and state.best * state.load < state.error:
         _take_best(problem, state)
     state.approach = find_pressures(problem, state.approach, state.n_panels)

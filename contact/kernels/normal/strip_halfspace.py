@@ -9,6 +9,8 @@ second derivative of the profile is used.
 
 Half lengths and ends are iterated together (`iteration`). Ends follow their rule for 16 iterations, the last of them within
 brackets (`brackets`), and are then fixed. The active set ends the patch inside them. The best iterate since then is kept.
+Where this finds no rest, as for lobes that a thin bridge joins, the iteration begins once more from what it found, with ends
+that move again.
 
 A later call starts from the last solution, but only where a few iterations bring it to rest (`start`). Otherwise the answer
 would depend on the start.
@@ -21,7 +23,17 @@ from contact.kernels.cubic import locate
 from contact.kernels.enumerations import LoadKind, Status
 from contact.kernels.normal.analyn import analyn, prepare
 from contact.kernels.normal.ends import SPUR
-from contact.kernels.normal.iteration import ACCEPTABLE, CLOSE, FREEZE, TOLERANCE, Problem, begin, finish, step
+from contact.kernels.normal.iteration import (
+    ACCEPTABLE,
+    CLOSE,
+    FREEZE,
+    TOLERANCE,
+    Problem,
+    begin,
+    begin_again,
+    finish,
+    step,
+)
 from contact.kernels.normal.orientation import is_image, turn_back, turn_samples
 from contact.kernels.normal.peak import peak_between_strips
 from contact.kernels.normal.residuals import stands_alone
@@ -30,7 +42,8 @@ from contact.kernels.normal.turned import turn_aspects
 from contact.kernels.records import MAX_PATCHES
 from contact.kernels.rows import Sample, Strip, Vector
 
-#: Most iterations, if the case does not say another number. They cap the time.
+#: Most iterations, if the case does not say another number. They cap the time. With this number or more, what is not at rest
+#: gets as many once more.
 MAX_ITERATIONS = 60
 #: An iterate that did not converge is returned if it changes by less than this; otherwise ANALYN's solution is.
 USABLE = 0.02
@@ -156,6 +169,40 @@ def _report(problem, delta, n_panels):
 
 
 @kernel
+def _is_usable(problem, state):
+    """Return whether the pressures may be the answer: they hardly change and lie below the modulus."""
+    vectors, total = problem.workspace.space.vectors, problem.workspace.rule.across.nodes.size * state.n_panels
+    peak = 0.0
+    for i in range(total):
+        peak = max(peak, vectors[Vector.P, i])
+    settled = state.converged != 0 or (total > 0 and state.error < USABLE * state.load)
+    return settled and peak * math.pi * problem.unit < 1.0
+
+
+@kernel
+def _is_at_rest(problem, state):
+    """Return whether the unknowns are at rest, or nearly, and no strip stands out. One that does at an end is levelled."""
+    n, vectors, skewed = problem.workspace.rule.across.nodes.size, problem.workspace.space.vectors, problem.skew > 0.0
+    acceptable = max(CLOSE * math.sqrt(problem.tolerance), ACCEPTABLE) if skewed else ACCEPTABLE
+    rough = _level_spurs(n, state.n_panels, vectors) or state.error > acceptable * state.load
+    alone = problem.skew >= 1.0 and stands_alone(n * state.n_panels, vectors)
+    return not alone and (state.converged != 0 or not rough)
+
+
+@kernel
+def _iterate(problem, state, most):
+    """Make at most `most` iterations. Return whether the pressures may be the answer and whether they are at rest."""
+    first = state.number
+    for k in range(most):
+        state.number = first + k
+        if step(problem, state):
+            break
+    finish(problem, state)
+    usable = _is_usable(problem, state)
+    return usable, usable and _is_at_rest(problem, state)
+
+
+@kernel
 def _solve(sep, case, workspace, result):
     """Solve the normal problem in the given orientation."""
     space, strips, memory = workspace.space, workspace.strips, workspace.space.memory
@@ -174,32 +221,23 @@ def _solve(sep, case, workspace, result):
     problem = Problem(sep, workspace, result, n_strips, panels, result.touch, skew, unit, by_load, amount, tolerance)
     state = space.iteration[0]
     begin(problem, n_panels, case.max_iterations, state)
-    for number in range(case.max_iterations):
-        state.number = number
-        if step(problem, state):
-            break
-    finish(problem, state)
+    usable, rests = _iterate(problem, state, case.max_iterations)
+    if not rests and state.load > 0.0 and state.error < math.inf and case.max_iterations >= MAX_ITERATIONS:
+        begin_again(problem, state)
+        usable, rests = _iterate(problem, state, case.max_iterations)
 
     result.iterations = state.number + 1
-    converged, n_panels = state.converged != 0, state.n_panels
-    peak = 0.0
-    for i in range(n_panels * n):
-        peak = max(peak, space.vectors[Vector.P, i])
-    usable = converged or (n_panels > 0 and state.error < USABLE * state.load)
-    if not (usable and peak < modulus):
+    if not usable:
         # `strips` and `result` still hold ANALYN's solution, and its status if the data end within the patch
         if result.status != Status.OUT_OF_RANGE:
             result.status = Status.NOT_CONVERGED
         forget(memory)
         return n_strips
+    n_panels = state.n_panels
     remember(n_panels if state.number - state.begun < FREEZE else 0, n, start_low, start_high, skew > 0.0, workspace)
-    spur = _level_spurs(n, n_panels, space.vectors)
     count = _report(problem, state.approach, n_panels)
     result.pmax = peak_between_strips(sep, count, unit, workspace)
-    acceptable = CLOSE * math.sqrt(tolerance) if skew > 0.0 else ACCEPTABLE
-    alone = skew >= 1.0 and stands_alone(n * n_panels, space.vectors)
-    rough = spur or state.error > max(acceptable, ACCEPTABLE) * state.load
-    if ((not converged and rough) or alone) and result.status != Status.OUT_OF_RANGE:
+    if not rests and result.status != Status.OUT_OF_RANGE:
         result.status = Status.NOT_CONVERGED
     elif result.status == Status.OUT_OF_RANGE:
         low, high = panels[0], panels[2 * n_panels - 1]
