@@ -18,12 +18,12 @@ $(BIN)/python:
 
 $(READY): pyproject.toml | $(BIN)/python
 	@echo "Setting up $(VENV) for development (some minutes the first time) ..."
-	$(BIN)/python -m pip install --quiet --editable '.[dev]'
+	$(BIN)/python -m pip install --quiet --no-compile --editable '.[dev]'
 	@touch $@ $(READY_FOR_DEMO)
 
 $(READY_FOR_DEMO): pyproject.toml | $(BIN)/python
 	@echo "Setting up $(VENV) for the demo (a minute the first time) ..."
-	$(BIN)/python -m pip install --quiet --editable '.[plot,native]'
+	$(BIN)/python -m pip install --quiet --no-compile --editable '.[plot,native]'
 	@touch $@
 
 demo: $(READY_FOR_DEMO) ## build the FMUs, run the coupled wheelset, write pictures and a CSV to out/

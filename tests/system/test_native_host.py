@@ -155,7 +155,7 @@ def test_sanitizers_find_nothing_in_the_sources(hosts, name, tmp_path):
         host(command, 5)
     host("fuzz", 20_000)
     if name == "Wheelset" or "SOAK" in os.environ:
-        host.wrong_calls(tmp_path, 200)
+        host.wrong_calls(tmp_path, 50)
 
 
 @pytest.mark.parametrize(("name", "command"), [("host", "fuzz"), ("host_fmi3", "random_calls")])

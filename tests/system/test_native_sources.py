@@ -11,6 +11,7 @@ import numpy as np
 import pytest
 from script_host import Script
 
+from contact.compile import linking
 from contact.compile.linking import compiler, run
 from contact_fmu.native import systems
 from contact_fmu.native.headers import HEADERS
@@ -192,7 +193,12 @@ def test_a_vehicle_has_the_same_numbers_under_wine(unzipped, tmp_path, name):
 
 
 @pytest.mark.parametrize("system", systems.ARM)
-def test_the_option_arm_makes_a_library_with_all_functions_of_fmi(system):
-    content = (systems.folder((system,)) / system / systems.SYSTEMS[system]).read_bytes()
+def test_the_option_arm_makes_a_library_with_all_functions_of_fmi(system, tmp_path, monkeypatch):
+    """It is compiled here at -O0, in a sixth of the time."""
+    for name in ("FLAGS", "_VISIBLE"):
+        fast = tuple("-O0" if flag == "-O2" else flag for flag in getattr(linking, name))
+        monkeypatch.setattr(linking, name, fast)
+    systems._link(systems.kernels(), tmp_path, (system,), print)
+    content = (tmp_path / system / systems.SYSTEMS[system]).read_bytes()
     assert content[:4] in (b"\x7fELF", b"\xcf\xfa\xed\xfe")
     assert all(name in content for name in (b"fmi2DoStep", b"fmi3DoStep"))

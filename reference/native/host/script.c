@@ -1,4 +1,5 @@
-/* A C host that executes commands from standard input: script LIBRARY GUID KIND RESOURCES (0 model exchange, 1 co-simulation).
+/* A C host that executes commands from standard input: script LIBRARY GUID KIND RESOURCES… (0 model exchange, 1 co-simulation).
+ * It makes an instance for each location of the resources, and goes on with the last one.
  * Each line is a letter, a value reference or a count, and numbers: s REFERENCE VALUE sets a Real, g REFERENCE prints it,
  * d TIME STEP does a step, t TIME sets the time, x N VALUES… sets the states and prints their derivatives. i initialises;
  * parameters are set before it. */
@@ -27,7 +28,7 @@ static void logger(fmi2ComponentEnvironment environment, fmi2String instance, fm
 
 int main(int n_arguments, char **arguments)
 {
-    if (n_arguments != 5) return puts("script LIBRARY GUID KIND RESOURCES"), 2;
+    if (n_arguments < 5) return puts("script LIBRARY GUID KIND RESOURCES…"), 2;
 #ifdef _WIN32
     HMODULE library = LoadLibraryA(arguments[1]);
 #else
@@ -48,7 +49,11 @@ int main(int n_arguments, char **arguments)
     FIND(fmi2FreeInstanceTYPE, FreeInstance);
 
     fmi2CallbackFunctions callbacks = {logger, NULL, NULL, NULL, NULL};
-    fmi2Component c = Instantiate("instance", (fmi2Type)atoi(arguments[3]), arguments[2], arguments[4], &callbacks, 0, 1);
+    fmi2Component c = NULL;
+    for (int i = 4; i < n_arguments; i++) {
+        if (c) FreeInstance(c);
+        c = Instantiate("instance", (fmi2Type)atoi(arguments[3]), arguments[2], arguments[i], &callbacks, 0, 1);
+    }
     if (!c) return 1;
     char letter;
     while (scanf(" %c", &letter) == 1) {
