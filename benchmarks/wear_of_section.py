@@ -19,8 +19,8 @@ import numpy as np
 from benchmarks.tables import table
 from contact_models.runs import scenario
 from contact_models.runs.run import VehicleRun
+from contact_models.vehicle.declared import SIDES
 from contact_models.vehicle.kernels.layout import Axis
-from contact_models.vehicle.simulation import SIDES
 
 EXAMPLE = Path(__file__).parents[1] / "examples" / "scenarios" / "vehicle_wear" / "curve_600.toml"
 BEGIN, LENGTH = 85.0, 145.0  # the circle begins at 80 m [m]

@@ -1,92 +1,98 @@
-"""Measure the largest stable communication step of the coupled wheelset, and find the motion that limits it.
+"""Measure the largest stable communication steps of a wheelset and its two contacts.
 
-A run starts slightly off the centre. It is unstable if the sixth differences of the velocities have grown after 90 steps. Sixth
-differences show what alternates from step to step and hide the slow motion. The iterated scheme is unstable if the forces agree
-in less than nine of ten steps. Bisection finds the largest stable step.
+Three motions of a wheelset are damped by creep forces that depend on their velocity: lateral motion, yaw and spin. `alone` is
+the largest step at which an explicit integration of one of them with forces held over a step does not grow, on the true
+contacts. `together` is that of the vehicle of this package with all its motions.
 """
 
 from __future__ import annotations
 
 import functools
 from collections.abc import Callable
-from dataclasses import replace
 from typing import NamedTuple
 
 import numpy as np
 
+from contact.arrays import Array
 from contact.errors import ContactError
-from contact_models.wheelset import master
-from contact_models.wheelset.components import DirectContact, DirectWheelset, direct
-from contact_models.wheelset.model import WheelsetModel
-from contact_models.wheelset.parameters import WheelsetParameters
-from contact_models.wheelset.ports import CREEPAGE
+from contact_models.vehicle.coupling import ANSWER, QUESTION, OpenVehicle
+from contact_models.vehicle.kernels.layout import Axis
+from contact_models.wheelset.master import Scheme
+from contact_models.wheelset.system import python_contacts, scenario, simulation
 
-EXPLICIT = {
-    "jacobi": 1.0,
-    "gauss_seidel": 2.0,
-}  # largest stable z = c h/m of  m dv/dt = -c v  with the force held over a step
-OFFSET = {
-    "jacobi": 1e-5,
-    "gauss_seidel": 1e-5,
-    "iterated": 1e-3,
-}  # [m] initial offset: growth needs room below saturation
-STEPS, ORDER, EARLY, LATE = 90, 6, 5, 20
+#: Largest stable z = c h/m of  m dv/dt = -c v  with the force held over a step.
+EXPLICIT: dict[Scheme, float] = {"jacobi": 1.0, "gauss_seidel": 2.0}
+STEPS = 90
 LONGEST = 20e-3  # [s] limit of the steps, since longer ones do not resolve the motion itself
-HELD = 1e9  # [kg m²] inertia of an axle whose spin cannot change
+_SLOW = 1e-6  # share of the speed at the start
+_HALF_BASE = 0.75  # [m]
+_CALM = 0.5  # share of the static load by which normal forces of a stable run vary at most
 
 
 class CoupledMode(NamedTuple):
-    """A motion that is damped by the creep forces: m dv/dt = -c v."""
+    """A motion that is damped by the creep forces: m dv/dt = -c v, with the velocity v at the contacts."""
 
     name: str
     mass: float
     damping: float
+    force: Callable[[float], float]
 
 
-def modes(p: WheelsetParameters) -> list[CoupledMode]:
-    """Return lateral motion, yaw and spin with c = 2 f/V, slopes f of the contact at rest and masses at the contact."""
-    wheelset, contact = DirectWheelset(WheelsetModel(replace(p, lateral=0.0))), DirectContact(p)
-    f11, f22 = (slope(contact, wheelset.read("right.problem"), axis) for axis in range(2))
-    _, base, radius, _ = wheelset.read("right.frame")
-    return [
-        CoupledMode("lateral", p.mass, 2.0 * f22 / p.speed),
-        CoupledMode("yaw", p.yaw_inertia / base**2, 2.0 * f11 / p.speed),
-        CoupledMode("spin", p.spin_inertia / radius**2, 2.0 * f11 / p.speed),
-    ]
+@functools.cache
+def modes(speed: float) -> tuple[CoupledMode, ...]:
+    """Return lateral motion, yaw and spin at a speed [m/s]."""
+    given = scenario(speed)
+    (axle,), radius = given.vehicle.wheelsets, given.vehicle.radius
+    contacts = python_contacts(given)
+    rest = OpenVehicle(simulation(given, 0.0)).ask()
+
+    def answer(name: str, change: float) -> Array:
+        moved = rest.copy()
+        moved[:, QUESTION.index(f"velocity.{name}")] += change
+        return np.sum([c.answer(q, 0.0, 0.0) for c, q in zip(contacts, moved, strict=True)], axis=0)
+
+    def mode(name: str, mass: float, velocity: str, arm: float, force: str) -> CoupledMode:
+        column, still = list(ANSWER).index(force), answer(velocity, 0.0)
+
+        def damped(v: float) -> float:
+            return float(answer(velocity, v / arm)[column] - still[column]) / arm
+
+        small = _SLOW * speed
+        return CoupledMode(name, mass, (damped(-small) - damped(small)) / (2.0 * small), damped)
+
+    return (
+        mode("lateral", axle.mass, "y", 1.0, "force.y"),
+        mode("yaw", axle.inertia[2] / _HALF_BASE**2, "yaw", _HALF_BASE, "moment.z"),
+        mode("spin", axle.inertia[1] / radius**2, "spin", radius, "moment.y"),
+    )
 
 
-def slope(contact: DirectContact, problem: np.ndarray, axis: int, creepage: float = 1e-6) -> float:
-    """Return the slope f [N] of the longitudinal (0) or lateral (1) creep force at the creepages of the problem."""
-    forces = []
-    for sign in (1.0, -1.0):
-        moved = problem.copy()
-        moved[CREEPAGE.start + axis] += sign * creepage
-        contact.write("problem", moved)
-        contact.step(0.0, 0.0)
-        forces.append(contact.read("reaction")[axis])
-    return (forces[1] - forces[0]) / (2.0 * creepage)
+def grows(mode: CoupledMode, h: float, scheme: Scheme, speed: float) -> bool:
+    """Return whether the velocity of one motion grows with forces held over steps of `h` [s]."""
+    v = first = _SLOW * speed
+    late = mode.force(v)
+    for _ in range(STEPS):
+        now = mode.force(v)
+        v += h * (now if scheme == "gauss_seidel" else late) / mode.mass
+        late = now
+    return abs(v) > first
 
 
-def coupled(p: WheelsetParameters, h: float, duration: float, scheme: str) -> master.History:
-    wheelset, contacts = direct(p)
-    return master.run(wheelset, contacts, speed=p.speed, step=h, duration=duration, scheme=scheme)
-
-
-def alternation(history: master.History) -> np.ndarray:
-    """Return differences of lateral, yaw and spin velocity at the contacts [m/s], shape (3, n - ORDER)."""
-    velocities = (history["lateral_velocity"], 0.75 * history["yaw_rate"], 0.46 * history["spin"])
-    return np.abs(np.diff(velocities, ORDER, axis=1))
-
-
-def stable(p: WheelsetParameters, h: float, scheme: str) -> bool:
+def calm(h: float, scheme: Scheme, speed: float) -> bool:
+    """Return whether the vehicle of this package runs with steps of `h` [s] without impacts."""
+    given = scenario(speed)
+    whole = simulation(given, 1e-3)
+    opened, contacts = OpenVehicle(whole), python_contacts(given)
+    load = float(whole.model.bodies["load"][whole.model.wheelsets[0]])
+    furthest = 0.0
     try:
-        history = coupled(replace(p, lateral=OFFSET[scheme]), h, STEPS * h, scheme)
-    except ContactError:  # the wheelset has left the rails
+        for _ in range(2 * STEPS):
+            opened.run(contacts, h, 1, parallel=scheme == "jacobi")
+            furthest = max(furthest, float(np.abs(whole.wheels["vertical"] / load - 1.0).max()))
+    except ContactError:  # a wheel has left its rail
         return False
-    if scheme == "iterated":
-        return bool((history.rounds <= master.MOST_ROUNDS).mean() >= 0.9)
-    size = alternation(history).max(axis=0)
-    return bool(size[-LATE:].max() <= 2.0 * size[:EARLY].max())
+    spin = whole.state.u[whole.model.wheelsets[0], Axis.PITCH]
+    return furthest < _CALM and bool(np.isfinite(spin))
 
 
 def largest(test: Callable[[float], bool], start: float, tolerance: float = 0.01) -> float:
@@ -108,12 +114,13 @@ def largest(test: Callable[[float], bool], start: float, tolerance: float = 0.01
 
 
 @functools.cache
-def measured(speed: float, scheme: str, spins: bool = True) -> tuple[float, str]:
-    """Return the largest stable step [s] and the motion that grows above it."""
-    p = WheelsetParameters(speed=speed) if spins else WheelsetParameters(speed=speed, spin_inertia=HELD)
-    limit = min(m.mass / m.damping for m in modes(p))
-    h = largest(lambda h: stable(p, h, scheme), 0.5 * limit)
-    if np.isinf(h) or scheme == "iterated":
-        return h, ""
-    above = alternation(coupled(replace(p, lateral=OFFSET[scheme]), 1.05 * h, STEPS * h, scheme))[:, -LATE:].max(axis=1)
-    return h, modes(p)[int(np.argmax(above))].name
+def alone(speed: float, scheme: Scheme, name: str) -> float:
+    """Return the largest stable step [s] of one motion."""
+    (mode,) = (each for each in modes(speed) if each.name == name)
+    return largest(lambda h: not grows(mode, h, scheme, speed), 0.5 * mode.mass / mode.damping)
+
+
+@functools.cache
+def together(speed: float, scheme: Scheme) -> float:
+    """Return the largest step [s] at which the vehicle of this package is calm, to 10 %."""
+    return largest(lambda h: calm(h, scheme, speed), 1e-5, tolerance=0.1)

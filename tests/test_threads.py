@@ -31,7 +31,6 @@ from contact.pair import HalfspacePair, RollerRig, TransientPair, WheelRailPair,
 from contact.results import solution as solutions
 from contact.stress import Endurance
 from contact_models.vehicle.coupling import OpenVehicle
-from contact_models.wheelset.model import WheelsetModel
 from tests.vehicle.parts import simulation
 
 GAP = Separation.hertzian(1.1, 0.8)
@@ -103,7 +102,6 @@ OWNERS = {
         lambda o, k: o.roll(Creepage(1e-3), distance=1e-3).Fx,
         stepper=True,
     ),
-    "WheelsetModel": Kind(WheelsetModel, lambda o, k: [o.step(1e-4), o.motion()][1], stepper=True),
     "Simulation": Kind(simulation, lambda o, k: [o.advance(1e-4, 5), o.state.q.copy()][1], stepper=True),
     "OpenVehicle": Kind(lambda: OpenVehicle(simulation()), lambda o, k: o.ask()),
 }
@@ -374,5 +372,5 @@ def test_every_class_that_keeps_arrays_for_kernels_lets_one_thread_in():
             for _, each in inspect.getmembers(importlib.import_module(module.name), inspect.isclass):
                 if each.__module__ == module.name and kept.search(inspect.getsource(each)):
                     found.add(each)
-    assert {contact.Solver, Pair, WheelRailPair, WheelsetModel, OpenVehicle} <= found
+    assert {contact.Solver, Pair, WheelRailPair, OpenVehicle} <= found
     assert [each for each in found if not issubclass(each, OwnsArrays)] == []

@@ -21,12 +21,13 @@ from contact.geometry.wheelset import Pair
 from contact.pair import WheelRailPair
 from contact_models.vehicle.coupling import Contact, OpenVehicle
 from contact_models.vehicle.course import lay
-from contact_models.vehicle.declared import read
+from contact_models.vehicle.declared import SIDES, read
 from contact_models.vehicle.kernels.layout import Axis
-from contact_models.vehicle.simulation import SIDES, ContactOptions, Simulation
+from contact_models.vehicle.simulation import ContactOptions, Simulation
 from contact_models.vehicle.spectra import Irregularities
 from contact_models.vehicle.track import Curve, Track
-from examples.coupled_vehicle.contacts import InFmu, InPython
+from contact_models.wheelset.contacts import InPython
+from contact_models.wheelset.fmu import InFmu
 
 SPEED = 15.0  # [m/s]
 FRICTION = 0.3
@@ -92,7 +93,7 @@ def python_contacts(options: ContactOptions) -> list[Contact]:
     return made
 
 
-def fmu_contacts(stack: ExitStack, fmu: Path, options: ContactOptions, *, co_simulation: bool = False) -> list[Contact]:
+def fmu_contacts(stack: ExitStack, fmu: Path, options: ContactOptions, *, exchange: bool = False) -> list[Contact]:
     """Return the contacts of all wheels as FMUs, which `stack` frees."""
     v = read("manchester")
     start: dict[str, float | str] = {
@@ -101,9 +102,7 @@ def fmu_contacts(stack: ExitStack, fmu: Path, options: ContactOptions, *, co_sim
         "resolution.n_strips": options.n_strips, "resolution.n_elements": options.n_elements,
         "method.normal": options.normal, "method.tangential": options.tangential,
     }  # fmt: skip
-    return [
-        stack.enter_context(InFmu(fmu, side, start, co_simulation=co_simulation)) for side in SIDES * len(v.wheelsets)
-    ]
+    return [stack.enter_context(InFmu(fmu, side, start, exchange=exchange)) for side in SIDES * len(v.wheelsets)]
 
 
 def difference(one: Array, other: Array) -> tuple[float, float]:
@@ -125,8 +124,8 @@ def main() -> None:
         with ExitStack() as stack:
             places = {
                 "Python objects": python_contacts(options),
-                "FMUs, model exchange": fmu_contacts(stack, arguments.fmu, options),
-                "FMUs, co-simulation": fmu_contacts(stack, arguments.fmu, options, co_simulation=True),
+                "FMUs, model exchange": fmu_contacts(stack, arguments.fmu, options, exchange=True),
+                "FMUs, co-simulation": fmu_contacts(stack, arguments.fmu, options),
             }
             for name, contacts in places.items():
                 found = coupled(contacts, options, STEP, samples)

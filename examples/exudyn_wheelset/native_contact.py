@@ -13,9 +13,10 @@ from fmpy.fmi2 import FMU2Model
 
 from contact.arrays import Array
 from contact.geometry.wheelset import Pair, Patch, Pose
-from contact_models.wheelset.parameters import WheelsetParameters
-from contact_models.wheelset.ports import POINTS
+from contact_fmu.tables.wheel_rail_contact import POINTS
+from contact_models.runs.scenario import Scenario
 
+WINDOW, SPACING = -0.02, 1e-3  # first sample of a separation and distance of samples [m]
 _APPROACH = 2  # value of load.kind
 _INPUTS = (
     *(f"geometry.{row}[{i}]" for row in "gA" for i in range(1, POINTS + 1)),
@@ -34,21 +35,19 @@ class NativeContact:
     ----------
     fmu : Path
         The native FMU, dist/native/WheelRailContact.fmu.
-    parameters : WheelsetParameters
-        Profiles, track and speed.
+    given : Scenario
+        Profiles, vehicle, speed and friction.
     side : {"right", "left"}
         Side of the wheel.
-    friction : float
-        Coefficient of friction [-].
     """
 
-    def __init__(self, fmu: Path, parameters: WheelsetParameters, side: str, friction: float = 0.3) -> None:
-        p = parameters
-        y = p.window_start + p.window_step * np.arange(POINTS)
-        self._radius, self._speed = p.radius, p.speed
+    def __init__(self, fmu: Path, given: Scenario, side: str) -> None:
+        v = given.vehicle
+        y = WINDOW + SPACING * np.arange(POINTS)
+        self._radius, self._speed = v.radius, given.speed(0.0)
         self._pair = Pair(
-            p.wheel, p.rail, side=side, nominal_radius=p.radius, gauge=p.gauge, gauge_point=p.gauge_point,
-            flange_back=p.flange_back, combine_distance=1.0, samples=y if side == "right" else -y[::-1],
+            given.wheel, given.rail, side=side, nominal_radius=v.radius, gauge=v.gauge, gauge_point=v.gauge_point,
+            flange_back=v.flange_back, combine_distance=1.0, samples=y if side == "right" else -y[::-1],
         )  # fmt: skip
         description = fmpy.read_model_description(str(fmu))
         reference = {v.name: v.valueReference for v in description.modelVariables}
@@ -60,8 +59,8 @@ class NativeContact:
         )  # fmt: skip
         self._fmu.instantiate()
         self._fmu.setupExperiment()
-        start = {"geometry.y0": p.window_start, "geometry.dy": p.window_step, "speed": p.speed}
-        start |= {"friction.coefficient": friction, "wheel.radius": p.radius}
+        start = {"geometry.y0": WINDOW, "geometry.dy": SPACING, "speed": self._speed}
+        start |= {"friction.coefficient": given.friction.static, "wheel.radius": v.radius}
         self._fmu.setReal([reference[n] for n in start], list(start.values()))
         self._fmu.setInteger([reference["load.kind"]], [_APPROACH])
         self._fmu.enterInitializationMode()

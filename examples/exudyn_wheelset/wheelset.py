@@ -6,9 +6,9 @@ python examples/exudyn_wheelset/wheelset.py [--fmu dist/native/WheelRailContact.
 from __future__ import annotations
 
 import argparse
-import dataclasses
 import math
 from contextlib import ExitStack
+from dataclasses import replace
 from pathlib import Path
 from typing import NamedTuple
 
@@ -24,15 +24,13 @@ from exudyn.itemInterface import (
 from exudyn.rigidBodyUtilities import RigidBodyInertia
 
 from contact.arrays import Array
-from contact_models.wheelset import master
-from contact_models.wheelset.components import direct
-from contact_models.wheelset.model import WheelsetModel
-from contact_models.wheelset.parameters import WheelsetParameters
-from contact_models.wheelset.ports import SIDES
+from contact_models.runs.scenario import Scenario
+from contact_models.vehicle.assembly import GRAVITY
+from contact_models.vehicle.declared import SIDES, Rail
+from contact_models.vehicle.kernels.layout import Axis
+from contact_models.wheelset import system
 from examples.exudyn_wheelset.native_contact import NativeContact
 
-AXLE_BOX = 1.0  # [m] from the centre of the axle
-VERTICAL_DAMPING = 3e4  # [N s/m] of an axle box; it damps the bounce on the elastic contacts (200 Hz)
 SPEEDS = (18.0, 22.0, 26.0, 30.0)  # [m/s]
 
 
@@ -45,32 +43,38 @@ class Motion(NamedTuple):
     yaw: Array
 
 
-def in_exudyn(fmu: Path, p: WheelsetParameters, duration: float, step: float = 5e-4) -> Motion:
+def on_rigid_track(speed: float) -> Scenario:
+    """Return the included wheelset on rails that do not give way, as those of exudyn."""
+    given = system.scenario(speed)
+    return replace(given, vehicle=replace(given.vehicle, rail=Rail(mass=0.0)))
+
+
+def in_exudyn(fmu: Path, given: Scenario, lateral: float, duration: float, step: float = 5e-4) -> Motion:
     """Run the wheelset in exudyn: a rigid body with six degrees of freedom, of which motion along the track is held."""
-    start = WheelsetModel(p)
-    lateral, yaw, _, _, spin, z, roll = start.motion()
-    turn = _about_x(roll) @ _about_z(yaw)
-    system = exu.SystemContainer()
-    mbs = system.AddSystem()
+    radius, (axle,), (spring,) = given.vehicle.radius, given.vehicle.wheelsets, given.vehicle.springs
+    start = system.simulation(given, lateral)
+    q = start.state.q[start.model.wheelsets[0]]
+    turn = _about_x(float(q[Axis.ROLL]))
+    container = exu.SystemContainer()
+    mbs = container.AddSystem()
     ground = mbs.CreateGround()
     body = mbs.CreateRigidBody(
-        referencePosition=[0.0, lateral, z - p.radius],
+        referencePosition=[0.0, lateral, float(q[Axis.Z]) - radius],
         referenceRotationMatrix=turn,
-        initialAngularVelocity=-spin * turn[:, 1],
-        inertia=RigidBodyInertia(p.mass, np.diag([p.yaw_inertia, p.spin_inertia, p.yaw_inertia])),
+        initialAngularVelocity=-given.speed(0.0) / radius * turn[:, 1],
+        inertia=RigidBodyInertia(axle.mass, np.diag(axle.inertia)),
         nodeType=exu.NodeType.RotationRotationVector,
     )
     node = mbs.GetObject(body)["nodeNumber"]
-    mbs.CreateForce(itemNumber=body, loadVector=[0.0, 0.0, p.axle_load])
-    # axle boxes at ± AXLE_BOX: their longitudinal springs are the yaw stiffness of the wheelset
-    stiffness = [0.5 * p.yaw_stiffness / AXLE_BOX**2, 0.5 * p.lateral_stiffness, 0.0]
-    for y in (AXLE_BOX, -AXLE_BOX):
+    mbs.CreateForce(itemNumber=body, loadVector=[0.0, 0.0, axle.mass * GRAVITY + 2.0 * spring.preload])
+    _, arm, _ = spring.at
+    for y in (arm, -arm):
         mbs.CreateCartesianSpringDamper(
             itemNumbers=[ground, body],
-            localPosition0=[0.0, y, -p.radius],
+            localPosition0=[0.0, y, -radius],
             localPosition1=[0.0, y, 0.0],
-            stiffness=stiffness,
-            damping=[0.0, 0.0, VERTICAL_DAMPING],
+            stiffness=list(spring.stiffness),
+            damping=list(spring.damping),
         )
     fixed = mbs.AddMarker(MarkerNodeCoordinate(nodeNumber=mbs.AddNode(NodePointGround()), coordinate=0))
     along = mbs.AddMarker(MarkerNodeCoordinate(nodeNumber=node, coordinate=0))
@@ -88,7 +92,7 @@ def in_exudyn(fmu: Path, p: WheelsetParameters, duration: float, step: float = 5
         return True
 
     with ExitStack() as stack:
-        contacts = [stack.enter_context(NativeContact(fmu, p, side)) for side in SIDES]
+        contacts = [stack.enter_context(NativeContact(fmu, given, side)) for side in SIDES]
 
         def wheel_rail_forces(mbs: exu.MainSystem, time: float, *connector: object) -> Array:
             """Return the load for exudyn. The sign is reversed, since a connector pulls its second marker back."""
@@ -115,10 +119,20 @@ def in_exudyn(fmu: Path, p: WheelsetParameters, duration: float, step: float = 5
     return Motion(*np.array(rows).T)
 
 
-def our_own(p: WheelsetParameters, duration: float, step: float = 5e-4) -> Motion:
-    """Run the same case with `contact_models.wheelset`: loads from equilibrium, four states and the spin."""
-    history = master.run(*direct(p), speed=p.speed, step=step, duration=duration, scheme="iterated")
-    return Motion(*(history[name] for name in ("time", "lateral", "lateral_velocity", "yaw")))
+def our_own(given: Scenario, lateral: float, duration: float, step: float = 2e-4) -> Motion:
+    """Run the same case with the vehicle of this package."""
+    simulation = system.simulation(given, lateral)
+    i, rows = simulation.model.wheelsets[0], []
+    for _ in range(round(duration / step)):
+        q, u = simulation.state.q[i], simulation.state.u[i]
+        rows.append((simulation.time, q[Axis.Y], u[Axis.Y], q[Axis.YAW]))
+        simulation.advance(step)
+    return Motion(*np.array(rows).T)
+
+
+def apart(theirs: Motion, own: Motion) -> float:
+    """Return the largest difference of the lateral displacements [m]."""
+    return float(np.abs(theirs.lateral - np.interp(theirs.time, own.time, own.lateral)).max())
 
 
 def hunting(motion: Motion) -> tuple[float, float]:
@@ -132,28 +146,17 @@ def hunting(motion: Motion) -> tuple[float, float]:
     return 0.5 / half, float(np.polyfit(t[window], envelope, 1)[0])
 
 
-def settled(p: WheelsetParameters) -> WheelsetParameters:
-    """Return the parameters with the approach that the contacts have at the start."""
-    wheelset, contacts = direct(p)
-    approaches = []
-    for side, contact in zip(SIDES, contacts, strict=True):
-        contact.write("problem", wheelset.read(f"{side}.problem"))
-        contact.step(0.0, 0.0)
-        approaches.append(contact.read("reaction")[3])
-    return dataclasses.replace(p, approach=float(np.mean(approaches)))
-
-
 def report(fmu: Path, duration: float = 1.5) -> list[tuple[float, Motion, Motion]]:
     """Run both models from 1 mm at SPEEDS, print a comparison and return the motions."""
     print("speed    frequency [Hz]     growth [1/s]      difference")
     print(" [m/s]   exudyn     own    exudyn     own     [mm]")
     runs, growths = [], []
     for speed in SPEEDS:
-        p = settled(WheelsetParameters(speed=speed, lateral=1e-3))
-        runs.append((speed, in_exudyn(fmu, p, duration), our_own(p, duration)))
+        given = on_rigid_track(speed)
+        runs.append((speed, in_exudyn(fmu, given, 1e-3, duration), our_own(given, 1e-3, duration)))
         (f, growth), (own_f, own_growth) = map(hunting, runs[-1][1:])
         growths.append((growth, own_growth))
-        difference = 1e3 * np.abs(runs[-1][1].lateral - runs[-1][2].lateral).max()
+        difference = 1e3 * apart(*runs[-1][1:])
         print(f"{speed:6.1f} {f:8.3f} {own_f:7.3f} {growth:9.3f} {own_growth:7.3f} {difference:8.3f}", flush=True)
     limits = (float(np.interp(0.0, column, SPEEDS)) for column in zip(*growths, strict=True))
     print("critical speed: {:.1f} m/s in exudyn, {:.1f} m/s with the own model".format(*limits))
@@ -167,7 +170,7 @@ def picture(runs: list[tuple[float, Motion, Motion]], path: Path) -> None:
     figure = Figure((8.0, 1.7 * len(runs)), layout="constrained")
     for axes, (speed, exudyn, own) in zip(figure.subplots(len(runs), sharex=True), runs, strict=True):
         axes.plot(exudyn.time, 1e3 * exudyn.lateral, label="exudyn + native FMU")
-        axes.plot(own.time, 1e3 * own.lateral, "--", label="models/contact_models/wheelset")
+        axes.plot(own.time, 1e3 * own.lateral, "--", label="vehicle of this package")
         axes.set_ylabel(f"y [mm] at {speed:g} m/s")
         axes.grid(alpha=0.3)
     figure.axes[0].legend(loc="upper right", fontsize="small")
@@ -179,11 +182,6 @@ def picture(runs: list[tuple[float, Motion, Motion]], path: Path) -> None:
 def _about_x(angle: float) -> Array:
     c, s = math.cos(angle), math.sin(angle)
     return np.array([[1.0, 0.0, 0.0], [0.0, c, -s], [0.0, s, c]])
-
-
-def _about_z(angle: float) -> Array:
-    c, s = math.cos(angle), math.sin(angle)
-    return np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]])
 
 
 def main() -> None:

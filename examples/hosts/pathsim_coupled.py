@@ -7,7 +7,7 @@ from pathsim import Connection, Simulation
 from pathsim_fmi import CoSimulationFMU
 from structure import read
 
-ssp, step, steps = sys.argv[1], *(sys.argv[2:] or ("2e-4", "60"))
+ssp, step, steps = sys.argv[1], *(sys.argv[2:] or ("2e-5", "60"))
 h = float(step)
 with tempfile.TemporaryDirectory() as folder:
     paths, parameters, connections = read(ssp, folder)
@@ -17,8 +17,8 @@ with tempfile.TemporaryDirectory() as folder:
     for block in blocks.values():  # PathSim starts every port at 0 instead of its start value
         for port, name in enumerate(block.fmu_wrapper.input_refs):
             block.inputs[port] = float(block.fmu_wrapper.variable_map[name].start)
-    wheelset = blocks["wheelset"]
-    lateral = list(wheelset.fmu_wrapper.output_refs).index("lateral")
+    vehicle = blocks["vehicle"]
+    lateral = list(vehicle.fmu_wrapper.output_refs).index("wheel[1].pose.y")
     for _ in range(int(steps)):
         simulation.timestep(h)
-        print("lateral", repr(float(wheelset.outputs[lateral])))
+        print("lateral", repr(float(vehicle.outputs[lateral])))

@@ -14,16 +14,20 @@ import numpy as np
 import contact
 from contact import plot
 from contact.accumulation import Histogram, save, worn_profile
-from contact.geometry.wheelset import Pair, Pose, Velocity
-from contact_models.wheelset import master
-from contact_models.wheelset.components import direct
-from contact_models.wheelset.parameters import WheelsetParameters
-from contact_models.wheelset.ports import MOTION
+from contact.arrays import Array
+from contact.geometry import profile
+from contact.geometry.wheelset import Irregularity, Pair, Pose, Velocity
+from contact_models.vehicle.coupling import OpenVehicle
+from contact_models.vehicle.course import lay
+from contact_models.vehicle.declared import read
+from contact_models.vehicle.kernels.layout import TrackRow
+from contact_models.vehicle.simulation import Simulation
+from contact_models.vehicle.track import Track
 
 SPEED = 20.0  # [m/s], below the critical speed
 AMPLITUDES = (1e-3, 2e-3, 3e-3)  # [m] amplitude of each wave of the track's centre line
 WAVES = (37.0, 23.0, 14.0)  # [m] wavelengths; an artificial line, not a measured spectrum
-FRICTION, STEP = 0.3, 5e-3  # [-], [s]; the iterated scheme is stable at this step
+FRICTION, STEP, EVERY = 0.3, 2e-4, 25  # [-], [s], steps from one sample to the next
 SETTLING, MOST_WORN = 1.0, 1e-3  # [s] at the start that do not count, [m] greatest wear depth in the drawing
 SMOOTHING = 2e-3  # [m] smoothing width of the wear depth
 
@@ -38,49 +42,40 @@ class Run:
     lateral: list[float] = field(default_factory=list)
 
 
-def centre_line(amplitude: float, t: float) -> tuple[float, float]:
-    """Return lateral position [m] and slope [-] of the track below the wheelset at time `t` [s]."""
-    k, x = 2.0 * np.pi / np.array(WAVES), SPEED * t
-    return float(amplitude * np.sin(k * x).sum()), float(amplitude * (k * np.cos(k * x)).sum())
+def track(amplitude: float, length: float) -> Array:
+    """Return the rows of straight track whose centre line is a sum of sines."""
+    rows = lay(Track(), length, lambda s: SPEED, (0,), 0.0)
+    k, s = 2.0 * np.pi / np.array(WAVES)[:, None], rows[TrackRow.PLACE]
+    for row in (TrackRow.RIGHT_Y, TrackRow.LEFT_Y):  # followed by their slopes
+        rows[row : row + 2] = amplitude * np.sin(k * s).sum(axis=0), amplitude * (k * np.cos(k * s)).sum(axis=0)
+    return rows
 
 
 def run(amplitude: float, seconds: float) -> Run:
     """Run the wheelset on a track with this amplitude. The last `seconds` count."""
-    p = WheelsetParameters(speed=SPEED, lateral=0.0)
-    wheelset, contacts = direct(p, FRICTION)
-    history = master.run(
-        wheelset,
-        contacts,
-        speed=SPEED,
-        step=STEP,
-        duration=SETTLING + seconds,
-        scheme="iterated",
-        irregularity=lambda t: centre_line(amplitude, t),
-    )
-    result = Run(Histogram(p.wheel, radius=p.radius), Histogram(p.rail, radius=p.radius))
+    v, wheel, rail = read("wheelset"), profile.s1002(), profile.rail_60e1()
+    simulation = Simulation(v, track(amplitude, SPEED * (SETTLING + seconds) + 1.0), wheel, rail, FRICTION)
+    opened = OpenVehicle(simulation)
+    simulation.advance(STEP, round(SETTLING / STEP))
+    result = Run(Histogram(wheel, radius=v.radius), Histogram(rail, radius=v.radius))
     pair = Pair(
-        p.wheel, p.rail, nominal_radius=p.radius, gauge=p.gauge, gauge_point=p.gauge_point, flange_back=p.flange_back
+        wheel, rail, nominal_radius=v.radius, gauge=v.gauge, gauge_point=v.gauge_point, flange_back=v.flange_back
     )
-    for k in np.flatnonzero(history["time"] >= SETTLING).tolist():
-        y, yaw, y_rate, yaw_rate, spin, _, roll = (float(history[name][k]) for name in MOTION)
-        line, slope = centre_line(amplitude, float(history["time"][k]))  # pose and velocity are relative to the track
-        pose, velocity = (
-            Pose(y - line, 0.0, roll, yaw - slope),
-            Velocity(SPEED, y_rate - SPEED * slope, yaw=yaw_rate, spin=-spin),
-        )
-        # vertical load: the normal force of the wheelset's own contact, which has one plane for all lobes
-        load = float(history["right.load.normal_force"][k] * np.cos(history["right.contact.angle"][k]))
-        patches = pair.contacts(pose, velocity, load=load)
+    for _ in range(round(seconds / (EVERY * STEP))):
+        simulation.advance(STEP, EVERY)
+        right = opened.ask()[0].tolist()
+        pose, velocity, irregularity = Pose(*right[:4]), Velocity(*right[4:10]), Irregularity(*right[10:16])
+        patches = pair.contacts(pose, velocity, irregularity=irregularity)
         solutions = [
             contact.solve(
-                patch.separation, patch.creepage, load=patch.load, friction=FRICTION, speed=SPEED, throw=False
+                patch.separation, patch.creepage, approach=patch.approach, friction=FRICTION, speed=SPEED, throw=False
             )
             for patch in patches
         ]
         for histogram in (result.wheel, result.rail):
-            histogram.add(patches, solutions, distance=SPEED * STEP)
+            histogram.add(patches, solutions, distance=SPEED * EVERY * STEP)
         result.solutions += solutions
-        result.lateral.append(pose.y)
+        result.lateral.append(pose.y - irregularity.y)
     return result
 
 

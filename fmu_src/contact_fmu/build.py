@@ -12,20 +12,19 @@ from typing import NamedTuple
 
 from contact.errors import ContactError
 from contact_models.runs import scenario
-from contact_models.wheelset import ports
-from contact_models.wheelset.parameters import WheelsetParameters
 from . import profiles, ssp, starts
 from .catalogue import Model, models, surfaces, vehicles
 from .documentation import markdown
 from .native import packaging as native
 from .native import systems
 from .tables.vehicle import START
+from .tables.wheel_rail_contact import POINTS
 
 #: FMUs by the names of their tables; those that need an option have no form for hosts with Python.
 _NATIVE_ONLY = ("WheelRailSurfaces", "Vehicle", "OpenVehicle")
 MODELS = ("WheelRailContact", "EllipticContact", "WheelRailPair", "Wheelset", *_NATIVE_ONLY)
 #: FMUs of which the two systems are made.
-_WHEELSET, _VEHICLE = {"Wheelset", "WheelRailContact"}, {"OpenVehicle", "WheelRailPair"}
+_WHEELSET, _VEHICLE = {"Wheelset", "WheelRailPair"}, {"OpenVehicle", "WheelRailPair"}
 
 
 def main(words: Sequence[str] | None = None, name: str | None = None) -> None:
@@ -57,8 +56,8 @@ def main(words: Sequence[str] | None = None, name: str | None = None) -> None:
     parser.add_argument(
         "--points",
         type=int,
-        default=ports.POINTS,
-        help=f"samples of the separation of WheelRailContact, at least 3 (default: {ports.POINTS}, as many as Wheelset gives)",
+        default=POINTS,
+        help=f"samples of the separation of WheelRailContact, at least 3 (default: {POINTS})",
     )
     parser.add_argument(
         "--accumulation",
@@ -234,12 +233,8 @@ def build_native(
 
 
 def build_system(folder: Path) -> None:
-    """Build the coupled wheelset from the FMUs in a folder, or print why this is not possible."""
-    if obstacle := ssp.obstacle(folder):
-        print(f"{ssp.NAME}, a system of these: not made, {obstacle}")
-    else:
-        made = ssp.build(folder, ssp.wheelset_on_rails(WheelsetParameters()))
-        print(f"{ssp.NAME}, a system of these: {_size(made)}")
+    """Build the coupled wheelset from the FMUs in a folder."""
+    print(f"{ssp.NAME}, a system of these: {_size(ssp.build(folder, ssp.wheelset_on_rails()))}")
 
 
 def _size(path: Path) -> str:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from functools import cache
 from importlib import import_module
 from pathlib import Path
 from typing import Any
@@ -13,11 +14,12 @@ from contact.geometry import profile
 from contact.geometry.profile import Kind, Profile
 from contact.geometry.surfaces import SurfacePair
 from contact_models.runs import scenario
-from contact_models.wheelset.ports import POINTS
+from contact_models.wheelset import system as wheelset
 from . import profiles, starts
 from . import surfaces as slices
 from .tables.vehicle import START, TRACK
-from .track import pack
+from .tables.wheel_rail_contact import POINTS
+from .track import pack, pack_rows
 from .variables import Table
 
 
@@ -54,8 +56,8 @@ def models(points: int, given: Mapping[Kind, Profile] | None = None, accumulatio
 
     With `accumulation` the pair has its bins of accumulated damage as outputs.
 
-    The default profiles are S1002 and 60E1. The default rail is inclined by 1:40; a given rail is not turned. The separations
-    of the wheelset always have `ports.POINTS` samples.
+    The default profiles are S1002 and 60E1. The default rail is inclined by 1:40; a given rail is not turned. The wheelset is
+    placed for the default profiles.
     """
     both: dict[Kind, Profile] = {"wheel": profile.s1002(), "rail": profile.rail_60e1(0.0), **(given or {})}
     inclination = 0.0 if given and "rail" in given else 1.0 / 40.0
@@ -69,8 +71,16 @@ def models(points: int, given: Mapping[Kind, Profile] | None = None, accumulatio
             {"accumulation": accumulation},
             "pair",
         ),
-        Model("wheelset", {}, declared="axle"),
+        axle(),
     )
+
+
+@cache
+def axle() -> Model:
+    """Return the FMU `Wheelset`: the included vehicle of one wheelset without contacts, on straight track."""
+    its = starts.of_simulation(wheelset.scenario(), wheelset.simulation(wheelset.scenario()), 0.0)
+    options = {"vehicle": wheelset.scenario().declared.vehicle, "starts": its, "name": "Wheelset"}
+    return Model("open_vehicle", options, {TRACK: pack_rows(wheelset.track())}, declared="vehicle_alone")
 
 
 def surfaces(given: Mapping[Kind, Profile] | None = None) -> Model:

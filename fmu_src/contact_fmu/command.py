@@ -54,7 +54,7 @@ def fmu(
     out: Annotated[Path, typer.Option(help="Folder for the FMUs.")] = Path("dist"),
     points: Annotated[
         int | None,
-        typer.Option(help="Samples of the separation of WheelRailContact. Default: as many as Wheelset gives."),
+        typer.Option(help="Samples of the separation of WheelRailContact."),
     ] = None,
     wheel: Annotated[str | None, typer.Option(help=f"Profile of the wheel: {PROFILE}.")] = None,
     rail: Annotated[str | None, typer.Option(help=f"Profile of the rail: {PROFILE}.")] = None,

@@ -80,9 +80,7 @@ def _root(table: Table, interfaces: Interfaces) -> Element:
     for reference, scalar in shown:
         variables.append(_variable(reference, scalar))
     index = {reference: i for i, (reference, _) in enumerate(shown, start=1)}  # FMI counts variables from 1
-    if table.states and "ModelExchange" in interfaces:
-        _derivatives(variables, table, index)
-    _structure(root, table, index, follows=not table.states or "ModelExchange" in interfaces)
+    _structure(root, table, index)
     return root
 
 
@@ -153,27 +151,17 @@ def _type_attributes(scalar: Scalar) -> Iterator[tuple[str, str]]:
         yield "start", number(scalar.start)
 
 
-def _derivatives(variables: Element, table: Table, index: Mapping[int, int]) -> None:
-    """Add the attribute `derivative`, the index of the state, to each derivative. `index` is that of each value reference."""
-    for state, derivative in zip(table.states, table.derivatives, strict=True):
-        (reference,), (of,) = table.references(derivative.name), table.references(state.name)
-        variables[index[reference] - 1][0].set("derivative", str(index[of]))
+def _structure(root: Element, table: Table, index: Mapping[int, int]) -> None:
+    """Add ModelStructure. Outputs depend on inputs, their initial values on parameters and inputs.
 
-
-def _structure(root: Element, table: Table, index: Mapping[int, int], follows: bool) -> None:
-    """Add ModelStructure. Outputs depend on inputs and states, their initial values on parameters and inputs.
-
-    If outputs do not follow inputs at once (`follows` is false), they depend on nothing. An example is a model with states in
-    co-simulation.
+    `index` is that of each value reference.
     """
     structure = SubElement(root, "ModelStructure")
     outputs = [row for row in table.shown if row.causality is Causality.OUTPUT]
-    inputs = [row for row in table.shown if row.causality is Causality.INPUT and follows]
+    inputs = [row for row in table.shown if row.causality is Causality.INPUT]
     parameters = [row for row in table.shown if row.causality is Causality.PARAMETER]
-    states = table.states if follows else []
     for section, rows, knowns in (
-        ("Outputs", outputs, [*inputs, *states]),
-        ("Derivatives", table.derivatives if follows else [], [*inputs, *states]),
+        ("Outputs", outputs, inputs),
         ("InitialUnknowns", [row for row in outputs if row.initial == "calculated"], [*parameters, *inputs]),
     ):
         if rows:

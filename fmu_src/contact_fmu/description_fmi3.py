@@ -99,8 +99,6 @@ def _variables(root: Element, table: Table) -> None:
             element.set("initial", row.initial)
         scalars = [] if row in table.fields else list(row.scalars())
         element.attrib.update(_attributes(row, scalars))
-        if row.derivative_of is not None:
-            element.set("derivative", str(references[row.derivative_of]))
         for size in row.shape:
             known = {"start": str(size)} if isinstance(size, int) else {"valueReference": str(references[size])}
             SubElement(element, "Dimension", known)
@@ -138,15 +136,14 @@ def _attributes(row: Variable, scalars: list[Scalar]) -> Iterator[tuple[str, str
 
 
 def _structure(root: Element, table: Table) -> None:
-    """Add ModelStructure. Outputs depend on inputs and states, their initial values on parameters and inputs."""
+    """Add ModelStructure. Outputs depend on inputs, their initial values on parameters and inputs."""
     structure = SubElement(root, "ModelStructure")
     rows, references = (*table.shown, *table.fields), value_references(table)
     outputs = [row for row in rows if row.causality is Causality.OUTPUT]
     inputs = [row for row in rows if row.causality is Causality.INPUT]
     parameters = [row for row in rows if row.causality is Causality.PARAMETER]
     for element, unknowns, knowns in (
-        ("Output", outputs, [*inputs, *table.states]),
-        ("ContinuousStateDerivative", table.derivatives, [*inputs, *table.states]),
+        ("Output", outputs, inputs),
         ("InitialUnknown", [row for row in outputs if row.initial == "calculated"], [*parameters, *inputs]),
     ):
         for row in unknowns:

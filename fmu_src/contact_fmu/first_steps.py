@@ -114,12 +114,12 @@ FIRST: dict[str, First] = {
         ("The numbers are for surfaces that do not change along the way, S1002 on 60E1 at 1:40.",),
     ),
     "Wheelset": First(
-        ("right.force.x", "right.force.y", "right.moment.z", "right.approach", "left.force.x"),
-        "The wheelset starts 3 mm to the right of the centre at 28 m/s. Without contact forces only its suspension moves it; "
-        "the loads and creepages that it tells are those of its motion.",
-        (Example({}, {"lateral": 2.859e-3, "yaw": 0.0}, "the start values"),),
-        65.0,
-        ("Connect each side to a WheelRailContact: names after right. and left. are those of the contact.",),
+        ("wheel[1].force.x", "wheel[1].force.y", "wheel[1].force.z", "wheel[1].moment.x", "wheel[2].force.x"),
+        "The wheelset starts 3 mm to the right of the centre at 28 m/s. Without the forces of its wheels it falls. Step a "
+        "WheelRailPair for each wheel before it.",
+        (Example({}, {"distance": 0.056}, "the start values"),),
+        4.4,
+        ("Names after wheel[1]. (right) and wheel[2]. (left) are those of the pair.",),
     ),
     "Vehicle": First(
         ("speed",),

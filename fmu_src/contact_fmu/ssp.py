@@ -1,13 +1,13 @@
-"""Build systems of FMUs as one file (System Structure and Parameterization 1.0): a wheelset with two contacts, and a vehicle
-with eight.
+"""Build systems of FMUs as one file (System Structure and Parameterization 1.0): a vehicle without contacts and a pair for each
+wheel, of the included wheelset or of a scenario.
 
 The structure is made from the tables of the FMUs, so connectors and units always agree with the FMUs. Parameters are bound in
 the structure itself. Only the step size is not part of the standard: it is in annotations that libcosim and OMSimulator read.
 
-Most masters of an SSP use the Jacobi scheme: every FMU steps with the values that were exchanged before the step. They differ
-in the first step. libcosim exchanges outputs during initialisation until the inputs have followed. fmpy starts every connector
-at 0. The contacts then see no load, so there is no contact, and the wheelset runs without creep forces for two steps.
-The vehicle's contacts are elastic and cannot be late: its master steps them before the vehicle (`examples.coupled_vehicle`).
+Most masters of an SSP use the Jacobi scheme: every FMU steps with the values that were exchanged before the step. The contacts
+are elastic, so late forces need short steps; a master that steps the pairs before the vehicle is not late
+(`examples.coupled_vehicle`). libcosim exchanges outputs during initialisation until the inputs have followed. fmpy starts every
+connector at 0: the wheelset then falls for two steps.
 
 The file of the wheelset has a second structure, Connected.ssd: the same with connectors of the whole, so that it can be a part
 of another system. libcosim 0.0.6 and Ecos 0.7.2 refuse such connections, so it is not the default.
@@ -16,17 +16,16 @@ of another system. libcosim 0.0.6 and Ecos 0.7.2 refuse such connections, so it 
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
-from xml.etree.ElementTree import Element, SubElement, fromstring, indent, tostring
-from zipfile import ZipFile
+from xml.etree.ElementTree import Element, SubElement, indent, tostring
 
 from contact_models.runs.scenario import Scenario
-from contact_models.wheelset.parameters import WheelsetParameters
-from contact_models.wheelset.ports import ENERGY, IRREGULARITY, MOTION, POINTS, PROBLEM, REACTION, REPORT, SIDES
+from contact_models.vehicle.declared import SIDES
+from contact_models.wheelset import system as wheelset
 from . import archive, starts
 from .description import number
-from .tables import open_vehicle, wheel_rail_contact, wheel_rail_pair, wheelset
+from .tables import open_vehicle, vehicle, wheel_rail_pair
 from .tables.solver import NORMAL_METHOD, TANGENTIAL_METHOD
 from .tables.wheel_rail_pair import LOAD_KIND, SIDE
 from .units import BASE_UNITS, UNITS
@@ -34,8 +33,8 @@ from .variables import Causality, Kind, Table
 
 NAME, VEHICLE = "coupled", "coupled_vehicle"
 CONNECTED = "Connected.ssd"
-STEP, STOP = 1e-4, 1.0  # [s]; at 28 m/s the Jacobi scheme is stable up to 0.67 ms (docs/check/coupling.md)
-STEP_OF_VEHICLE = 2e-4  # [s]
+STEP, STOP = 2e-5, 1.0  # [s]; a master that steps all FMUs at once is late (docs/use/own_vehicle.md)
+_MOTION = tuple(f"body[2].{name}" for name in ("y", "yaw"))  # of a wheelset on its frame
 
 _NAMESPACES = {
     "xmlns:ssd": "http://ssp-standard.org/SSP1/SystemStructureDescription",
@@ -75,22 +74,12 @@ class System:
     outputs: tuple[str, ...] = ()
 
 
-def wheelset_on_rails(parameters: WheelsetParameters) -> System:
-    """Return the wheelset with its two contacts."""
-    p = parameters
-    contact = {"speed": p.speed, "wheel.radius": p.radius}
-    components = [
-        SspComponent(
-            "wheelset", wheelset.table(), {name: float(getattr(p, key)) for name, key in wheelset.KEYWORDS.items()}
-        ),
-        *(SspComponent(side, wheel_rail_contact.table(POINTS), contact) for side in SIDES),
-    ]
-    connections: list[Connection] = []
-    for side in SIDES:
-        connections += [("wheelset", f"{side}.{name}", side, name) for name in PROBLEM]
-        connections += [(side, name, "wheelset", f"{side}.{name}") for name in REACTION]
-    shown = frozenset((*MOTION, *ENERGY, *REPORT))
-    return System(NAME, components, connections, shown, STEP, tuple(IRREGULARITY), tuple(MOTION))
+def wheelset_on_rails() -> System:
+    """Return the included wheelset with its two pairs."""
+    axle = wheelset.scenario()
+    its = starts.of_simulation(axle, wheelset.simulation(axle), 0.0)
+    made = _on_rails(axle, open_vehicle.table(axle.declared.vehicle, its, "Wheelset"), its)
+    return replace(made, name=NAME, inputs=tuple(row.name for row in vehicle.inputs()), outputs=("distance", *_MOTION))
 
 
 def vehicle_on_rails(given: Scenario, start: float) -> System:
@@ -98,13 +87,15 @@ def vehicle_on_rails(given: Scenario, start: float) -> System:
 
     The FMUs have the scenario's profiles and track; its speed at the start and its friction are parameters.
     """
-    declared = given.vehicle
-    methods = given.declared.methods
-    whole = open_vehicle.table(str(given.declared.vehicle))
-    vehicle: dict[str, float] = {}
-    for name, value in starts.open_vehicle(given, start):
+    return _on_rails(given, open_vehicle.table(str(given.declared.vehicle)), starts.open_vehicle(given, start))
+
+
+def _on_rails(given: Scenario, whole: Table, its: vehicle.Starts) -> System:
+    declared, methods = given.vehicle, given.declared.methods
+    parameters: dict[str, float] = {}
+    for name, value in its:
         for k, one in enumerate(value if isinstance(value, tuple) else (value,), 1):
-            vehicle[f"{name}[{k}]" if isinstance(value, tuple) else name] = float(one)
+            parameters[f"{name}[{k}]" if isinstance(value, tuple) else name] = float(one)
     of_wheel = {
         "load.kind_integer": LOAD_KIND.number("Position"),
         "method.normal_integer": NORMAL_METHOD.number(methods.normal),
@@ -118,34 +109,14 @@ def vehicle_on_rails(given: Scenario, start: float) -> System:
     }
     pair = wheel_rail_pair.table()
     names = [f"axle{axle}_{side}" for axle in range(1, len(declared.wheelsets) + 1) for side in SIDES]
-    components, connections = [SspComponent("vehicle", whole, vehicle)], []
+    components, connections = [SspComponent("vehicle", whole, parameters)], []
     for k, name in enumerate(names):
         side = SIDE.number(SIDES[k % 2].title())
         components.append(SspComponent(name, pair, {"side_integer": side, **of_wheel}))
         connections += [("vehicle", f"wheel[{k + 1}].{ask}", name, ask) for ask in open_vehicle.QUESTION]
         connections += [(name, answer, "vehicle", f"wheel[{k + 1}].{answer}") for answer in open_vehicle.ANSWER]
-    shown = frozenset(("speed", "distance", "wheel.Q", "wheel.Y", "wheel.Y_over_Q", "damage.T_gamma"))
-    return System(VEHICLE, components, connections, shown, STEP_OF_VEHICLE)
-
-
-def obstacle(folder: Path) -> str:
-    """Return the reason why the FMUs in `folder` cannot form this system, or "" if they can.
-
-    The contact must take as many samples as the wheelset gives.
-    """
-    for table in (c.table for c in wheelset_on_rails(WheelsetParameters()).components):
-        path = folder / f"{table.name}.fmu"
-        if not path.is_file():
-            return f"{path} is missing"
-        if _inputs(path) != {s.name for s in table.scalars if s.row.causality is Causality.INPUT}:
-            return f"{path.name} does not take the {POINTS} samples of a separation that Wheelset.fmu gives (--points)"
-    return ""
-
-
-def _inputs(fmu: Path) -> set[str]:
-    with ZipFile(fmu) as archive:
-        description = fromstring(archive.read("modelDescription.xml"))
-    return {v.get("name", "") for v in description.iter("ScalarVariable") if v.get("causality") == "input"}
+    outputs = ("wheel.Q", "wheel.Y", "wheel.Y_over_Q", "damage.T_gamma", "pressure.max", "power.friction")
+    return System(VEHICLE, components, connections, frozenset(("distance", *_MOTION, *outputs)), STEP)
 
 
 def build(folder: Path, made: System) -> Path:

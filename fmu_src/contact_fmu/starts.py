@@ -52,7 +52,7 @@ def inputs(given: Scenario, start: float) -> dict[str, float]:
 
 
 def open_vehicle(given: Scenario, start: float) -> Starts:
-    """Return the starts of the FMU `OpenVehicle`: heights of its wheelsets and place of the rails, from its statics."""
+    """Return the starts of the FMU `OpenVehicle` at the place `start` [m]: poses of its wheelsets and place of the rails."""
     d, methods = given.declared, given.declared.methods
     track = lay(d.track, d.length, given.speed, (d.seed, *given.draw), d.recording.settling)
     options = ContactOptions(
@@ -60,12 +60,19 @@ def open_vehicle(given: Scenario, start: float) -> Starts:
     )
     rails = given.rails * len(given.vehicle.wheelsets)
     simulation = Simulation(given.vehicle, track, given.wheels, rails, given.friction, options, start=start)
+    return of_simulation(given, simulation, start)
+
+
+def of_simulation(given: Scenario, simulation: Simulation, start: float) -> Starts:
+    """Return the same from the scenario's vehicle at its start."""
     origin = simulation.wheel_arrays.motions[0]
-    heights = simulation.state.q[simulation.model.wheelsets, Axis.Z]
+    wheelsets = simulation.model.wheelsets
+    pose, spin = simulation.state.q[wheelsets], simulation.state.u[wheelsets, Axis.PITCH]
     found: dict[str, float | str | tuple[float, ...]] = {
         **inputs(given, start),
         "initial.distance": start,
-        "initial.z": tuple(map(float, heights)),
+        **{f"initial.{axis.name.lower()}": tuple(pose[:, axis].tolist()) for axis in (Axis.Y, Axis.Z, Axis.ROLL)},
+        "initial.radius": tuple((-given.speed(start) / spin).tolist()),
         "rail.origin_y": float(origin["origin_y"]),
         "rail.origin_z": float(origin["origin_z"]),
     }

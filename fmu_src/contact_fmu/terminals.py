@@ -1,7 +1,8 @@
 """Terminals of the FMUs for FMI 3.0: groups of variables that belong together, so that a tool connects them at once.
 
-A wheelset has one terminal for each side, a contact has one. Members that are connected have the same names. A pair has one
-terminal for its wheelset, one for its rail, one for the displacement of a flexible wheel and one that shows its patches.
+A contact has one terminal for whoever poses its problem. A pair has one for its wheelset, one for its rail, one for the
+displacement of a flexible wheel and one that shows its patches. A vehicle without contacts has one for its
+wheels: its members are arrays of what a pair takes and gives.
 """
 
 from __future__ import annotations
@@ -10,7 +11,7 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from xml.etree.ElementTree import Element, SubElement, indent, tostring
 
-from contact_models.wheelset.ports import PROBLEM, REACTION, SIDES
+from .tables.wheel_rail_contact import PROBLEM, REACTION
 from .variables import Causality, Table
 
 
@@ -24,8 +25,6 @@ class Terminal:
     members: Mapping[str, str]
 
 
-_MEMBERS = tuple(dict.fromkeys(name.split("[")[0] for name in (*PROBLEM, *REACTION)))  # rows, without their indices
-_PREFIXES: dict[str, str] = {"contact": "", **{str(side): f"{side}." for side in SIDES}}
 #: Terminal of a pair → what it is for, and the groups whose inputs and outputs are its members: their names begin so.
 _OF_PAIR = {
     "wheelset": (
@@ -41,10 +40,13 @@ _OF_PAIR = {
 def of_table(table: Table) -> Iterator[Terminal]:
     """Yield the terminals of an FMU."""
     connectors = [row.element("") for row in table.shown if row.causality in (Causality.INPUT, Causality.OUTPUT)]
-    for name, prefix in _PREFIXES.items():
-        if {prefix + member for member in REACTION} <= set(connectors):
-            members = {member: prefix + member for member in _MEMBERS if prefix + member in connectors}
-            yield Terminal(name, "contact", "The contact problem to the contact, its forces back", members)
+    if set(REACTION) <= set(connectors):
+        members = {member: member for member in (*PROBLEM, *REACTION) if member in connectors}
+        yield Terminal("contact", "contact", "The contact problem to the contact, its forces back", members)
+    of_wheels = {row.name.removeprefix("wheel[]."): row.element("") for row in table.rows if "wheel[]." in row.name}
+    if "pose.y" in of_wheels:
+        about = "Motion to the pair of each wheel, its force and moment back: arrays over the wheels"
+        yield Terminal("wheels", "wheels", about, of_wheels)
     groups = {variable: variable.split(".")[0] for variable in connectors}
     for name, (about, wanted) in _OF_PAIR.items() if "pose" in groups.values() else ():
         yield Terminal(name, name, about, {v: v for v, group in groups.items() if group in wanted})

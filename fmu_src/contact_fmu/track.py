@@ -8,6 +8,7 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
+from contact.arrays import Array
 from contact.errors import ContactError
 from contact_models.runs import scenario
 from contact_models.runs.scenario import Scenario
@@ -23,8 +24,17 @@ ROWS = len(TrackRow)
 def pack(given: Scenario) -> bytes:
     """Return the resource of the track of a scenario."""
     d = given.declared
-    rows = lay(d.track, d.length, given.speed, (d.seed, *given.draw), d.recording.settling)
+    return pack_rows(lay(d.track, d.length, given.speed, (d.seed, *given.draw), d.recording.settling))
+
+
+def pack_rows(rows: Array) -> bytes:
+    """Return the resource of a track with these rows."""
     return resources.pack(MAGIC, rows)
+
+
+def unpack(resource: bytes) -> Array:
+    """Return the rows of a track's resource. Raise ContactError if it is none."""
+    return resources.unpack(resource, ROWS, f"resource {TRACK}").copy()
 
 
 def exchange(fmu: Path, given: Scenario) -> None:

@@ -78,7 +78,7 @@ def _write(fmu: Path, table: Table, place: Path, short: str, version: str, vehic
         turned = given._replace(inputs=mirror.mirrored(given.inputs))
         wrong += mirror.unlike(answer, _simulated(fmu, table, turned, short, mirror.starts(table)), tolerance)
         physics = [*physics, "mirrored inputs have mirrored answers"]
-    if table.name == "OpenVehicle" and (found := momentum(fmu, vehicle, given, answer)) is not None:
+    if table.name in ("OpenVehicle", "Wheelset") and (found := momentum(fmu, vehicle, given, answer)) is not None:
         wrong += found
         physics = [*physics, "the momentum of all bodies grows by the forces and the weight"]
     if wrong:

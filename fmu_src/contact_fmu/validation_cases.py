@@ -73,18 +73,13 @@ def case(table: Table, amplitude: float = 1.0, vehicle: str = "") -> Case:
         }
         if "geometry.A0" in starts:
             found["geometry.B0"] = through((0.0, 1.0), (0.2, 1.0), (0.4, 8.0), (0.6, 1.0), (1.0, 1.0))
-    elif table.name == "Wheelset":
-        found = {
-            "irregularity.lateral": 1e-3 * np.sin(4.0 * math.pi * share),
-            "right.force.x": through((0.0, 0.0), (1.0, 500.0)),
-        }
     elif table.name == "Vehicle":
         mu, speed = (float(starts[name] or 0.0) for name in ("friction.coefficient", "speed"))
         found = {
             "friction.coefficient": mu * through((0.0, 1.0), (0.5, 0.5), (1.0, 1.0)),
             "speed": np.full(n + 1, speed),
         }
-    elif table.name == "OpenVehicle":
+    elif table.name in ("OpenVehicle", "Wheelset"):
         found = _on_given_forces(vehicle, share)
     return Case(step, time, found)
 

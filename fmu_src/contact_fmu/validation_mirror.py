@@ -28,7 +28,7 @@ _MATRIX = re.compile(r"creep_stiffness\[(\d),(\d)\]$")
 
 def has_mirror(table: Table) -> bool:
     """Return whether the FMU has a mirror: vehicles have not, since their track is what it is."""
-    return table.name not in ("Vehicle", "OpenVehicle")
+    return table.name not in ("Vehicle", "OpenVehicle", "Wheelset")
 
 
 def of(name: str) -> tuple[str, float]:

@@ -10,7 +10,7 @@ import numpy as np
 from contact.arrays import Array
 from contact_models.vehicle.assembly import GRAVITY, assemble
 from contact_models.vehicle.declared import read
-from contact_models.vehicle.kernels.layout import TrackRow
+from contact_models.vehicle.kernels.layout import Axis, TrackRow
 from . import resources
 from .tables.vehicle import TRACK
 from .track import ROWS
@@ -20,11 +20,15 @@ _RELATIVE = 1e-6  # of the largest force
 
 
 def momentum(fmu: Path, vehicle: str, given: Case, answer: dict[str, Array]) -> list[str] | None:
-    """Return what the law says against the answer of the FMU of a vehicle, None where its track is not straight and level.
+    """Return what the law says against the answer of the FMU of a vehicle.
+
+    None where its track is not straight and level, or where a frame holds a body aside or up.
 
     Forces are held over a step.
     """
     made = assemble(read(vehicle))
+    if made.bodies["held"][:, [Axis.Y, Axis.Z]].any():
+        return None
     places = made.bodies["place"]
     if not _is_straight(fmu, answer["distance"][0] + places.min(), answer["distance"][-1] + places.max()):
         return None

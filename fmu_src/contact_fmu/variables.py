@@ -89,7 +89,6 @@ class Attributes(Limits, total=False):
     boolean: bool
     shape: tuple[int | str, ...]
     depends: tuple[str, ...] | None
-    derivative_of: str | None
     tunable: bool
     used: Mapping[str, tuple[str, ...]]
     twin_of: str
@@ -109,7 +108,7 @@ class Variable:
         Key of `units.UNITS`, or one key for each element. Every Real has a unit ("1" if dimensionless), other types have none.
     start : number, str, or tuple of numbers
         Start value, for an enumeration the name of the item. Parameters and inputs need one. An output with a start is exact
-        before initialisation (a state); an output without a start is calculated.
+        before initialisation; an output without a start is calculated.
     minimum, maximum : float
         Allowed range. With `open_minimum` the minimum itself is not allowed. The XML cannot express this, so the FMU checks it.
     nominal : float, optional
@@ -121,9 +120,7 @@ class Variable:
     shape : tuple of int or str
         Empty for a scalar. For a field it may contain names of Integer parameters, the resolution that the user chooses.
     depends : tuple of str, optional
-        Rows (parameters, inputs and continuous states) on which an output depends. None means all of them.
-    derivative_of : str, optional
-        Row whose time derivative this output is. In model exchange that row is a continuous state.
+        Rows (parameters and inputs) on which an output depends. None means all of them.
     tunable : bool
         Whether a host may change the parameter after initialisation: in event mode or between steps.
     used : mapping
@@ -152,7 +149,6 @@ class Variable:
     boolean: bool = False
     shape: tuple[int | str, ...] = ()
     depends: tuple[str, ...] | None = None
-    derivative_of: str | None = None
     tunable: bool = False
     used: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
     twin_of: str = ""
@@ -279,16 +275,6 @@ class Table:
         object.__setattr__(self, "span", span)
 
     @property
-    def derivatives(self) -> list[Variable]:
-        """Derivatives of the continuous states, in the order of the states."""
-        return [row for row in self.rows if row.derivative_of is not None]
-
-    @property
-    def states(self) -> list[Variable]:
-        """Continuous states, in the order of their derivatives."""
-        return [self.row[row.derivative_of] for row in self.derivatives if row.derivative_of is not None]
-
-    @property
     def shown(self) -> list[Variable]:
         """Rows that hosts see."""
         return [row for row in self.rows if not {row.name, row.twin_of} & self.hidden]
@@ -324,8 +310,8 @@ class Table:
         return range(where.start, where.stop)
 
     def knowns(self, output: Variable) -> list[Variable]:
-        """Return the parameters, inputs and continuous states on which `output` depends."""
-        known = [row for row in self.shown if row.is_given or row in self.states]
+        """Return the parameters and inputs on which `output` depends."""
+        known = [row for row in self.shown if row.is_given]
         return [row for row in known if output.depends is None or {row.name, row.twin_of} & {*output.depends}]
 
 

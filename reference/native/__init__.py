@@ -20,7 +20,7 @@ from contact_fmu.catalogue import models, vehicles
 from contact_fmu.native import systems
 from contact_fmu.native.component import Component
 from contact_fmu.native.headers import HEADERS
-from contact_models.wheelset.ports import POINTS
+from contact_fmu.tables.wheel_rail_contact import POINTS
 from reference.native import source
 
 ROOT = Path(__file__).parents[2]
@@ -51,12 +51,6 @@ ROLES = {
         "CHOICE": "method.normal", "OTHER_CHOICE": "method.tangential",
         "COARSEST": {"resolution.n_strips": 4, "resolution.n_elements": 4, "resolution.n_samples": 5},
     },
-    "Wheelset": {
-        "LOAD": "right.force.x", "VARIED": "right.force.y", "REFUSED": "irregularity.lateral", "TAKEN": 0.0,
-        "RESULT": "lateral", "SUM": "energy.interface", "LATE": "yaw_acceleration",
-        "CHOICE": "resolution.substeps", "OTHER_CHOICE": "resolution.substeps",
-        "COARSEST": {"resolution.substeps": 1},
-    },
 }  # fmt: skip
 #: The same for FMUs that meet wrong calls only.
 ATTACKED = {
@@ -73,6 +67,7 @@ ATTACKED = {
         "CHOICE": "distance", "OTHER_CHOICE": "distance", "COARSEST": {"distance": 0},
     },
 }  # fmt: skip
+ATTACKED["Wheelset"] = ATTACKED["OpenVehicle"]
 SCENARIO = ROOT / "examples" / "scenarios" / "vehicle_300.toml"
 
 
@@ -212,7 +207,6 @@ def roles(its: Component) -> str:
     lines = [f"#define {role} {source.c_name(of)}" for role, of in given.items() if isinstance(of, str)]
     lines += [f'#define VARIED_NAME "{given["VARIED"]}"', f"#define TAKEN {given['TAKEN']}"]
     lines += [f"#define HAS_EXCHANGE {int(its.exchange)}"]
-    lines += [f"#define RESULT_IS_STATE {int(table.row[given['RESULT']] in table.states)}"]
     lines += [f"#define RESOLUTION {{{', '.join(map(source.c_name, coarsest))}}}"]
     lines += [f"#define COARSEST {{{', '.join(map(str, coarsest.values()))}}}"]
     return "\n".join(lines) + "\n"

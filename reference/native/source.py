@@ -22,7 +22,6 @@ def header(component: Component, guid: str) -> str:
 #define N_ACCUMULATED {accumulated}
 #define ACCUMULATES(values) {accumulates}
 #define N_PARAMETERS {parameters}
-#define N_STATES {len(table.states)}
 #define N_MESSAGES {int(max([0, *component.warnings, *component.failures]))}
 #define N_TOTALS {len(component.totals)}
 #define N_CHOICES {sum(row.is_given for row in table.twins)}

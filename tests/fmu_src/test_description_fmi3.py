@@ -9,7 +9,7 @@ from contact_fmu.catalogue import models, surfaces
 from contact_fmu.description_fmi3 import model_description, value_references
 from contact_fmu.documentation import markdown
 from contact_fmu.native.packaging import INTERFACES_3
-from contact_fmu.variables import Causality, Table, output, parameter, signal
+from contact_fmu.variables import Causality, Table, output, parameter
 
 TABLES = [*(model.table for model in models(41)), surfaces().table]
 
@@ -71,20 +71,12 @@ def test_every_unit_is_defined(xml, variables):
 
 def test_outputs_depend_on_inputs_and_initial_values_on_parameters_too(table, xml, variables):
     knowns = {v.get("valueReference") for v in variables.values() if v.get("causality") == "input"}
-    knowns |= {str(value_references(table)[state.name]) for state in table.states}
     outputs = {v.get("valueReference") for v in variables.values() if v.get("causality") == "output"}
     assert {o.get("valueReference") for o in xml.findall("ModelStructure/Output")} == outputs
     for output_ in xml.findall("ModelStructure/Output"):
         assert set(output_.get("dependencies").split()) <= knowns
     parameters = {str(value_references(table)[r.name]) for r in table.rows if r.causality is Causality.PARAMETER}
     assert any(set(u.get("dependencies").split()) & parameters for u in xml.findall("ModelStructure/InitialUnknown"))
-
-
-def test_a_derivative_refers_to_its_state():
-    rows = [signal("f", "Force", start=0.0), output("x", "Place"), output("v", "Velocity", derivative_of="x")]
-    xml = ElementTree.fromstring(model_description(Table("T", "Test", rows, 1e-3), INTERFACES_3, ""))
-    assert {v.get("name"): v.get("derivative") for v in xml.find("ModelVariables")}["v"] == "1"
-    assert [d.get("valueReference") for d in xml.findall("ModelStructure/ContinuousStateDerivative")] == ["2"]
 
 
 def test_the_same_table_gives_the_same_bytes_and_carries_the_token(table, xml):

@@ -8,7 +8,7 @@ import pytest
 from contact_fmu.catalogue import models, surfaces, vehicles
 from contact_fmu.description import model_description
 from contact_fmu.native.packaging import INTERFACES
-from contact_models.wheelset.ports import POINTS
+from contact_fmu.tables.wheel_rail_contact import POINTS
 from reference.native import SCENARIO
 
 #: Words that cannot name an element of a bus in MATLAB, and the longest name.

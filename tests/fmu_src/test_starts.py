@@ -12,10 +12,10 @@ from contact_fmu import starts
 from contact_fmu.catalogue import models, vehicles
 from contact_fmu.native.table import content
 from contact_fmu.tables import open_vehicle, vehicle
+from contact_fmu.tables.wheel_rail_contact import POINTS
 from contact_fmu.variables import Causality
 from contact_models.runs import scenario
 from contact_models.runs.scenario import Methods
-from contact_models.wheelset.ports import POINTS
 
 #: Every number of friction differs from its default.
 FRICTION = {
@@ -79,7 +79,10 @@ def test_what_a_scenario_does_not_set_keeps_its_start(tmp_path):
     same = {row.name: row.start for row in open_vehicle.table("manchester").rows}
     assert {name for name in alone if alone[name] != same[name]} == {
         "speed",
+        "initial.y",
         "initial.z",
+        "initial.roll",
+        "initial.radius",
         "rail.origin_y",
         "rail.origin_z",
     }

@@ -6,7 +6,7 @@ import math
 import numpy as np
 import pytest
 
-from contact_models.wheelset.linear import LinearWheelset
+from reference.linear_wheelset import LinearWheelset
 
 # theory.md 9.4: the worked example
 EXAMPLE = LinearWheelset(

@@ -10,7 +10,7 @@ from examples.coupled_vehicle.coupled import coupled, difference, fmu_contacts, 
 STEP, SAMPLES = 2e-4, 30
 
 
-@pytest.mark.parametrize("co_simulation", [False, True], ids=["model exchange", "co-simulation"])
+@pytest.mark.parametrize("exchange", [True, False], ids=["model exchange", "co-simulation"])
 @pytest.mark.parametrize(
     ("options", "y", "force"),
     [
@@ -19,11 +19,11 @@ STEP, SAMPLES = 2e-4, 30
     ],
     ids=["analyn", "default"],
 )
-def test_eight_fmus_give_the_run_of_the_one_kernel(native, options, y, force, co_simulation):
+def test_eight_fmus_give_the_run_of_the_one_kernel(native, options, y, force, exchange):
     fmu = native.with_name("WheelRailPair.fmu")
     whole = in_one_kernel(options, STEP, SAMPLES)
     with ExitStack() as stack:
-        contacts = fmu_contacts(stack, fmu, options, co_simulation=co_simulation)
+        contacts = fmu_contacts(stack, fmu, options, exchange=exchange)
         found = difference(whole, coupled(contacts, options, STEP, SAMPLES))
     assert found[0] <= y
     assert found[1] <= force

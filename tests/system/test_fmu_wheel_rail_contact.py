@@ -99,8 +99,7 @@ def test_instances_do_not_share_anything(open_fmu):
 def test_two_builds_and_two_versions_live_in_one_process(open_fmu, tmp_path):
     """If their scripts had the same name, pythonfmu would run the first for both."""
     command = [sys.executable, ROOT / "build_fmu.py", "--packaging", "python", "--out", tmp_path, "--points", "7"]
-    said = subprocess.run(command, check=True, timeout=120, capture_output=True, text=True).stdout
-    assert "not made, WheelRailContact.fmu does not take the 41 samples of a separation that Wheelset.fmu gives" in said
+    subprocess.run(command, check=True, timeout=120, capture_output=True)
     fmpy.extract(str(tmp_path / "python" / f"{NAME}.fmu"), str(tmp_path / "seven"))
     large, small = open_fmu(NAME), Instance(tmp_path / "seven")
     for fmu in (large, small):

@@ -21,11 +21,11 @@ from contact.geometry.wheelset import Pair, Pose, Velocity
 from contact.pair import WheelRailPair
 from contact_fmu.tables.wheel_rail_contact import table
 from contact_fmu.tables.wheel_rail_pair import table as pair_table
-from contact_models.wheelset import master
-from contact_models.wheelset.components import direct
-from contact_models.wheelset.fmu import FmuComponent
-from contact_models.wheelset.parameters import WheelsetParameters
-from contact_models.wheelset.ports import CONTACT_PORTS, MOTION, SIDES, WHEELSET_PORTS
+from contact_models.vehicle.coupling import ANSWER, OpenVehicle
+from contact_models.vehicle.declared import SIDES
+from contact_models.vehicle.kernels.layout import Axis
+from contact_models.wheelset.fmu import Fmu, FmuVehicle, InFmu
+from contact_models.wheelset.system import python_contacts, scenario, simulation
 
 EXAMPLES = Path(__file__).parents[2] / "examples" / "hosts"
 PYTHON = os.environ.get("HOSTS_PYTHON", sys.executable)
@@ -159,45 +159,35 @@ def test_cofmupy_couples_two_contacts(native):
     assert run("cofmupy", "cofmupy_contact.py", native)["force.x"] == [pytest.approx(solved().Fx, rel=1e-4)]
 
 
-STEP, STEPS = 2e-4, 60
-
-
-def test_casadi_integrates_the_coupled_wheelset(native):
-    """It integrates by Runge and Kutta. Our wheelset has the same motion with 1000 substeps: 3e-12 m were measured."""
-    lateral = run("casadi", "casadi_coupled.py", native.with_name("coupled.ssp"), STEP, STEPS)["lateral"]
-    p = WheelsetParameters(substeps=1000)
-    wheelset, contacts = direct(p)
-    ours = master.run(wheelset, contacts, speed=p.speed, step=STEP, duration=(STEPS + 1) * STEP)["lateral"][1:]
-    assert np.ptp(lateral) > 1e-5  # it moves
-    assert np.max(np.abs(lateral - ours)) < 2e-11
+STEP, STEPS = 2e-5, 60
 
 
 def test_pathsim_steps_the_coupled_wheelset_as_our_own_master(native):
-    """Bit for bit. PathSim steps block by block: the wheelset with the last forces, then each contact with its new motion."""
+    """Bit for bit. PathSim steps block by block: the vehicle with the last forces, then each pair with its new motion."""
     lateral = run("pathsim_fmi", "pathsim_coupled.py", native.with_name("coupled.ssp"), STEP, STEPS)["lateral"]
-    p = WheelsetParameters()
-    start = {"speed": p.speed, "wheel.radius": p.radius}
     ours = []
     with ExitStack() as stack:
-        wheelset = stack.enter_context(FmuComponent(native.with_name("Wheelset.fmu"), WHEELSET_PORTS))
-        contacts = [stack.enter_context(FmuComponent(native, CONTACT_PORTS, start)) for _ in SIDES]
-        for k in range(STEPS):
-            for side, contact in zip(SIDES, contacts, strict=True):
-                wheelset.write(f"{side}.reaction", contact.read("reaction"))
-            wheelset.step(k * STEP, STEP)
-            for side, contact in zip(SIDES, contacts, strict=True):
-                contact.write("problem", wheelset.read(f"{side}.problem"))
-                contact.step(k * STEP, STEP)
-            ours.append(float(wheelset.read("motion")[MOTION.index("lateral")]))
+        vehicle = FmuVehicle(stack.enter_context(Fmu(native.with_name("Wheelset.fmu"))))
+        pairs = [stack.enter_context(InFmu(native.with_name("WheelRailPair.fmu"), side)) for side in SIDES]
+        answers = np.zeros((len(SIDES), len(ANSWER)))
+        for _ in range(STEPS):
+            vehicle.move(answers, STEP)
+            asked = vehicle.ask()
+            ours.append(float(asked[0, 0]))
+            answers = np.array(
+                [pair.answer(row, vehicle.time - STEP, STEP) for pair, row in zip(pairs, asked, strict=True)]
+            )
     assert lateral == ours
 
 
 def test_ecos_runs_the_coupled_wheelset(native):
-    """At 28 m/s the wheelset hunts with a growing amplitude of millimetres, as under our own Jacobi master."""
+    """As under our own Jacobi master. Ecos exchanges the outputs of initialisation in another order."""
     lateral = run("ecospy", "ecos_coupled.py", native.with_name("coupled.ssp"))["lateral"]
-    p, h = WheelsetParameters(), 5e-4
-    wheelset, contacts = direct(p)
-    history = master.run(wheelset, contacts, speed=p.speed, step=h, duration=3001 * h, scheme="jacobi")
-    # Ecos exchanges the outputs of initialisation in another order; the difference grows with the hunting
-    assert lateral[:3] == pytest.approx([history["lateral"][1000 * k] for k in (1, 2, 3)], rel=5e-4)
-    assert 1e-3 < abs(lateral[3]) < 6e-3
+    given = scenario()
+    whole, contacts = simulation(given), python_contacts(given)
+    opened, ours = OpenVehicle(whole), []
+    for _ in range(4):
+        opened.run(contacts, STEP, 1000, parallel=True)
+        ours.append(whole.state.q[whole.model.wheelsets[0], Axis.Y])
+    assert lateral == pytest.approx(ours, rel=5e-4)
+    assert np.ptp(ours) > 1e-4  # it moves

@@ -9,7 +9,7 @@ from contact.core.library import ENVIRONMENT
 from contact_fmu.catalogue import models
 from contact_fmu.native import packaging
 
-WHEELSET = next(model for model in models(41) if model.name == "wheelset")
+WHEELSET = next(model for model in models(41) if model.table.name == "Wheelset")
 
 
 def test_the_same_kernels_give_the_same_bytes(native_wheelset, tmp_path):

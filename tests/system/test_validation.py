@@ -15,9 +15,9 @@ from contact_fmu import validation_mirror as mirror
 from contact_fmu.catalogue import models
 from contact_fmu.check import compare, read
 from contact_fmu.tables import open_vehicle
+from contact_fmu.tables.wheel_rail_contact import POINTS
 from contact_fmu.validation_cases import case
 from contact_fmu.validation_momentum import momentum
-from contact_models.wheelset.ports import POINTS
 
 MODELS = {model.table.name: model for model in models(POINTS)}
 NAMES = ("WheelRailPair", "EllipticContact")

@@ -18,9 +18,8 @@ from contact_models.runs.scenario import Methods, Recording
 from contact_models.runs.scenario import read as read_scenario
 from contact_models.runs.torque import Torque
 from contact_models.vehicle import assess, drawing
-from contact_models.vehicle.declared import read
+from contact_models.vehicle.declared import SIDES, read
 from contact_models.vehicle.kernels.layout import Axis
-from contact_models.vehicle.simulation import SIDES
 from contact_models.vehicle.spectra import Irregularities
 from contact_models.vehicle.track import Curve, Track
 from tests.notebooks import drawn, parsed, words

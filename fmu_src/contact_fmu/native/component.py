@@ -59,7 +59,7 @@ class Component:
     kind : str
         Which kernels compute it: a key of `kinds.KINDS`.
     table : Table
-        Variable table. The continuous states are the rows that have a derivative among the other rows.
+        Variable table.
     own : array of int64
         Numbers that the kernels get: the record `places`, then what they need beside it. Without them the kernels know all.
     resources : tuple of Resource

@@ -11,10 +11,10 @@ from contact.kernels.geometry.settle import DEEPEST
 from contact.kernels.records import LARGEST_ANGLE
 from contact_models.vehicle.assembly import assemble
 from contact_models.vehicle.declared import read
-from contact_models.wheelset import motion
 from .. import surfaces, track
 from ..profiles import MAGIC, ROWS
-from ..tables import open_vehicle, vehicle, wheel_rail_contact, wheel_rail_pair, wheel_rail_surfaces, wheelset
+from ..tables import open_vehicle, vehicle, wheel_rail_contact, wheel_rail_pair, wheel_rail_surfaces
+from ..tables.open_vehicle import ASTRAY, ENDED, LOST
 from ..tables.vehicle import Starts
 from .component import Component, Resource, numbers
 
@@ -57,7 +57,6 @@ class OpenFailure(IntEnum):
     LOST = 2
 
 
-OUT_OF_GAUGE = max(motion.MESSAGES) + 1  # of the wheelset
 _FAILURES: dict[int, str] = {
     Failure.NO_OVERLAP: "pose.y: the profiles of wheel and rail do not overlap",
     Failure.NOT_SETTLED: "load.normal_force: no height was found at which the wheel carries this load on this rail",
@@ -70,10 +69,6 @@ _OF_PROFILES: dict[int, str] = {
     Failure.GAUGE_POINT: "track.gauge_point: the rail reaches no deeper on its gauge side",
     Failure.STEEP: "rail.inclination: the rail is steep at its top",
 }
-_ENDED = "the vehicle is not on the track: it ends here (contact_fmu.track), or initial.distance is not on it"
-#: Largest distance [m] and angle [rad] of a body from its place; a vehicle that is further is lost.
-FARTHEST = 5.0
-_LOST = f"a body is more than {FARTHEST:g} m or rad from its place, or has no finite motion"
 _PROFILES = (
     Resource(wheel_rail_pair.WHEEL, MAGIC["wheel"], ROWS),
     Resource(wheel_rail_pair.RAIL, MAGIC["rail"], ROWS),
@@ -133,12 +128,6 @@ def surface_pair() -> Component:
     )
 
 
-def axle() -> Component:
-    """Return the FMU of a wheelset."""
-    too_deep = "the rail's side does not reach down to where the gauge is measured"
-    return Component(kind="wheelset", table=wheelset.table(), failures={**motion.MESSAGES, OUT_OF_GAUGE: too_deep})
-
-
 def whole_vehicle(vehicle: str, inclination: float, starts: Starts = ()) -> Component:
     """Return the FMU of a vehicle. `inclination` is the default of `rail.inclination` (tangent)."""
     from ..tables.vehicle import table
@@ -150,21 +139,20 @@ def whole_vehicle(vehicle: str, inclination: float, starts: Starts = ()) -> Comp
         own=_of_vehicle(vehicle, its),
         resources=(*_PROFILES, _TRACK),
         warnings=WARNINGS,
-        failures={**_OF_PROFILES, Failure.ENDED: _ENDED, Failure.LOST: f"{_LOST}: resolution.step is too long"},
+        failures={**_OF_PROFILES, Failure.ENDED: ENDED, Failure.LOST: f"{ASTRAY}: resolution.step is too long"},
         exchange=False,
     )
 
 
-def vehicle_alone(vehicle: str, starts: Starts = ()) -> Component:
+def vehicle_alone(vehicle: str, starts: Starts = (), name: str = "OpenVehicle") -> Component:
     """Return the FMU of a vehicle that asks for the forces at its wheels."""
-    table = open_vehicle.table(vehicle, starts)
-    too_long = f"{_LOST}: the step is too long, or forces do not belong to the motion"
+    table = open_vehicle.table(vehicle, starts, name)
     return Component(
         kind="open_vehicle",
         table=table,
         own=_of_vehicle(vehicle, table),
         resources=(_TRACK,),
-        failures={OpenFailure.ENDED: _ENDED, OpenFailure.LOST: too_long},
+        failures={OpenFailure.ENDED: ENDED, OpenFailure.LOST: LOST},
         exchange=False,
     )
 

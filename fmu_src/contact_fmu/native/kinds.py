@@ -7,10 +7,8 @@ begins with the warm start. The last argument is `component.Given`.
 * ``model_memory(values, given)`` returns the size of the warm start in numbers, ``model_size(values, given)`` that of all
   working memory. Both depend only on the parameters in `values`.
 * ``model_prepare(values, work, given)`` fills what depends only on the parameters.
-* ``model_start(values, work, given)`` computes the continuous states and the outputs of co-simulation at the start, from the
-  parameters. A model without states does not need it.
 * ``model_outputs(values, work, h, given)`` advances by h [s] from the warm start, then computes the outputs. With h = 0 it
-  computes them only from the inputs and states in `values`.
+  computes them only from the inputs in `values`.
 * ``model_lazy(values, work, given)`` computes the rows `lazy` from the solution that ``model_outputs`` has left in `work`. A
   model without such rows does not need it.
 * ``model_jacobian(values, work, given)`` derives the rows `derived` by the rows `derived_by` at the solution that
@@ -40,7 +38,6 @@ SIGNATURES: dict[str, tuple[str, tuple[str, ...]]] = {
     "memory": ("i64", ("ptr",)),
     "size": ("i64", ("ptr",)),
     "prepare": ("i64", ("ptr", "ptr")),
-    "start": ("i64", ("ptr", "ptr")),
     "outputs": ("i64", ("ptr", "ptr", "f64")),
     "lazy": ("i64", ("ptr", "ptr")),
     "jacobian": ("i64", ("ptr", "ptr")),
@@ -52,7 +49,6 @@ KINDS = {
     "contact": f"{__package__}.wheel_rail_contact",
     "pair": f"{__package__}.wheel_rail_pair",
     "surfaces": f"{__package__}.wheel_rail_surfaces",
-    "wheelset": f"{__package__}.wheelset",
     "vehicle": f"{__package__}.vehicle",
     "open_vehicle": f"{__package__}.open_vehicle",
 }
@@ -100,7 +96,6 @@ def _no_field(values: Any, work: Any, k: Any, given: Any) -> int:
 
 #: What stands for functions that a kind does not need.
 _UNNEEDED: dict[str, Callable[..., Any]] = {
-    "start": _nothing,
     "lazy": _nothing,
     "jacobian": _nothing,
     "field": _no_field,

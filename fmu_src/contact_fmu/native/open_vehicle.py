@@ -11,6 +11,7 @@ from contact.core import arranging
 from contact.kernels.block import records
 from contact.kernels.records import GIVEN
 from contact_models.vehicle.kernels import motion
+from contact_models.vehicle.kernels.layout import Axis
 from ..tables.open_vehicle import table
 from .component import places
 from .components import OpenFailure
@@ -18,8 +19,6 @@ from .vehicle_parts import (
     arrange,
     constants_of,
     fill,
-    has_ended,
-    is_near_track,
     kept_by,
     track_after,
     write_motion,
@@ -88,14 +87,18 @@ def model_outputs(values, work, h, given):
     model.surface[0], model.surface[1] = v[at.friction_coefficient], v[at.friction_coefficient]
     if parts.begun[0] == 0.0:
         motion.place(model, state, motions, v[at.initial_z : at.initial_z + at.n_axles], v[at.initial_distance], speed)
+        for axle in range(at.n_axles):
+            i = model.wheelsets[axle]
+            state.q[i, Axis.Y], state.q[i, Axis.ROLL] = v[at.initial_y + axle], v[at.initial_roll + axle]
+            state.u[i, Axis.PITCH] = -speed / v[at.initial_radius + axle]
         parts.begun[0] = 1.0
-    if has_ended(parts):
+    if motion.has_ended(parts.model, parts.state):
         return _ENDED
     motion.prepare_contacts(model, state, motions, scratch, speed)
     if h > 0.0:
         _take_forces(v, at, parts)
         motion.move(model, state, motions, scratch, h, speed)
-        if not is_near_track(parts):
+        if not motion.is_near_track(parts.state):
             return _LOST
         motion.prepare_contacts(model, state, motions, scratch, speed)
     _report(v, at, parts)

@@ -1,4 +1,4 @@
-"""Write resources/model.bin of a native FMU: its variables, states, totals, messages and numbers, which c/table.c reads.
+"""Write resources/model.bin of a native FMU: its variables, totals, messages and numbers, which c/table.c reads.
 
 The file is little-endian: 8 magic bytes, a checksum of what follows (FNV-1a, 64 bits), then the structs of c/instance.h, whose
 members all have 8 bytes. A text is its place among the texts, which come last.
@@ -17,7 +17,7 @@ from .component import Component
 MAGIC = b"WRMODEL1"
 NAME = "model.bin"
 _KINDS = {"Real": 1, "Integer": 2, "Enumeration": 4, "Boolean": 8, "Count": 16}
-_PARAMETER, _INPUT, _OUTPUT, _STATE, _TOTAL, _FIELD, _TIME, _ACCUMULATED, _TUNABLE = 1, 2, 4, 8, 16, 32, 64, 128, 256
+_PARAMETER, _INPUT, _OUTPUT, _TOTAL, _FIELD, _TIME, _ACCUMULATED, _TUNABLE = 1, 2, 4, 16, 32, 64, 128, 256
 _WARNING, _DISCARD = 1, 2
 _NONE = -1
 _MOST_USES = 2
@@ -54,10 +54,6 @@ class _Writer:
         doubted = [self.doubt(rule) for rule in doubts.rules(table)]
         parts = [
             *self.variables(),
-            *(
-                struct.pack("<qqd", self.at(state.name), self.at(rate.name), state.nominal or 1.0)
-                for state, rate in zip(table.states, table.derivatives, strict=True)
-            ),
             *(struct.pack("<qq", *by_number.get(i, (0, 0))) for i in range(last + 1)),
             *(
                 struct.pack("<qqq", self.at(total), *(_NONE if row is None else self.at(row) for row in rates))
@@ -73,7 +69,7 @@ class _Writer:
         texts = b"".join(text.encode() + b"\0" for text in self.texts)
         texts += bytes(-len(texts) % 8)
         counts = (
-            len(table.scalars) - accumulated, accumulated, len(table.fields), parameters, len(table.states), last,
+            len(table.scalars) - accumulated, accumulated, len(table.fields), parameters, last,
             len(component.totals), len(given), len(shown), len(component.resources),
             len(component.derived), len(component.derived_by), len(doubted),
         )  # fmt: skip
@@ -115,8 +111,6 @@ class _Writer:
         )
 
     def role(self, row: Variable) -> int:
-        if row in self.table.states:
-            return _STATE
         if row.name in self.component.accumulated:
             return _ACCUMULATED
         if row.name in self.component.totals:

@@ -42,8 +42,6 @@ from .vehicle_parts import (
     arrange,
     constants_of,
     fill,
-    has_ended,
-    is_near_track,
     kept_by,
     track_after,
     write_motion,
@@ -290,7 +288,7 @@ def _advance(v, at, parts, contacts, h, given):
     steps = max(math.ceil(min(h / v[at.resolution_step], 1e9) - 1e-6), 1)
     step, code = h / steps, 0
     for _ in range(steps):
-        if has_ended(parts):
+        if motion.has_ended(parts.model, parts.state):
             return Failure.ENDED
         motion.prepare_contacts(model, state, motions, scratch, speed)
         code = _press(v, parts, contacts, step, given)
@@ -298,7 +296,7 @@ def _advance(v, at, parts, contacts, h, given):
             return code
         if h > 0.0:
             motion.move(model, state, motions, scratch, step, speed)
-        if not is_near_track(parts):
+        if not motion.is_near_track(parts.state):
             return Failure.LOST
     return code
 

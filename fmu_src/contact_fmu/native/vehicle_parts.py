@@ -11,14 +11,12 @@ from contact.compile.pointers import integers_of
 from contact.core import arranging, group
 from contact.kernels.block import ahead, cube, matrix, records, vector
 from contact.kernels.records import GIVEN, MOTION
-from contact_models.vehicle.course import BEYOND
 from contact_models.vehicle.kernels.layout import (
     BODY,
     ELEMENT,
     LINK,
     SEAT,
     WHEEL,
-    Axis,
     Book,
     Model,
     Scratch,
@@ -27,7 +25,6 @@ from contact_models.vehicle.kernels.layout import (
     TrackFrame,
     TrackRow,
 )
-from .components import FARTHEST
 
 _INTEGER = np.dtype([("value", "i8")])
 _N_WHEEL = WHEEL.itemsize // 8
@@ -140,24 +137,6 @@ def track_after(resources, n_files):
     for _ in range(n_files):
         at += 1 + 3 * int(carray(ahead(resources, at), (1,))[0])
     return ahead(resources, at + 1), int(carray(ahead(resources, at), (1,))[0])
-
-
-@arranging
-def has_ended(parts):
-    """Return whether the vehicle has reached the end of the track, or has no finite place."""
-    s, places = parts.state.books[Book.DISTANCE], parts.model.track[TrackRow.PLACE]
-    return not places[0] <= s <= places[-1] - BEYOND
-
-
-@arranging
-def is_near_track(parts):
-    """Return whether all bodies are within `FARTHEST` of their places, with finite velocities."""
-    q, total = parts.state.q, parts.state.q.sum() + parts.state.u.sum() + parts.state.rails.sum()
-    farthest = 0.0
-    for i in range(q.shape[0]):
-        for j in (Axis.Y, Axis.Z, Axis.ROLL, Axis.YAW):
-            farthest = max(farthest, abs(q[i, j]))
-    return farthest <= FARTHEST and total - total == 0.0
 
 
 @arranging

@@ -10,6 +10,7 @@ from dataclasses import replace
 from functools import cache
 
 from contact_models.vehicle.declared import VehicleDeclaration, read
+from contact_models.vehicle.kernels.layout import FARTHEST
 from ..variables import Table, Variable, output, parameter, signal
 from . import vehicle
 from .vehicle import Starts, started
@@ -21,17 +22,24 @@ ANSWER = tuple(f"{kind}.{axis}" for kind in ("force", "moment") for axis in "xyz
 _NOMINAL = {"m": 1e-3, "rad": 1e-3, "m/s": 1.0, "rad/s": 1.0, "1": 0.1}
 #: What it is asked: its inputs in the order of the record GIVEN, then the friction.
 QUESTION = (*(name for name, *_ in MOTION), "friction.coefficient")
+#: Why a step is discarded.
+ENDED = "the vehicle is not on the track: it ends here (contact_fmu.track), or initial.distance is not on it"
+ASTRAY = f"a body is more than {FARTHEST:g} m or rad from its place, or has no finite motion"
+LOST = f"{ASTRAY}: the step is too long, or forces do not belong to the motion"
 
 
 @cache
-def table(vehicle: str, starts: Starts = ()) -> Table:
-    """Return the table for a vehicle as `contact_models.vehicle.declared.read` finds it, with the `starts` of a scenario."""
+def table(vehicle: str, starts: Starts = (), name: str = "OpenVehicle") -> Table:
+    """Return the table for a vehicle as `contact_models.vehicle.declared.read` finds it, with the `starts` of a scenario.
+
+    `name` is that of the FMU.
+    """
     declared = read(vehicle)
     return Table(
-        "OpenVehicle",
-        f"{declared.name} without contacts, on the track in resources. For each wheel, wheelset by wheelset, right "
-        "before left, it tells the motion that WheelRailPair takes, and takes its forces. Step the pairs before the "
-        "vehicle: then nothing is late.",
+        name,
+        f"{declared.name[0].upper()}{declared.name[1:]} without contacts, on the track in resources. For each wheel, "
+        "wheelset by wheelset, right before left, it tells the motion that WheelRailPair takes, and takes its forces. "
+        "Step the pairs before the vehicle: then nothing is late.",
         started([*_parameters(declared), *_inputs(declared), *_outputs(declared)], starts),
         step_size=2e-4,
     )
@@ -40,13 +48,25 @@ def table(vehicle: str, starts: Starts = ()) -> Table:
 def _parameters(declared: VehicleDeclaration) -> Iterable[Variable]:
     n = len(declared.wheelsets)
     yield vehicle.initial_distance()
+    of = "of each wheelset at the start"
+    yield parameter("initial.y", f"pose.y {of}", unit="m", shape=(n,), start=0.0, nominal=1e-3)
     yield parameter(
         "initial.z",
-        "pose.z of each wheelset at the start, at which its wheels carry their load (WheelRailPair with NormalForce)",
+        f"pose.z {of}, at which its wheels carry their load (WheelRailPair with NormalForce)",
         unit="m",
         shape=(n,),
         start=1e-4,
         nominal=1e-4,
+    )
+    yield parameter("initial.roll", f"pose.roll {of}", unit="rad", shape=(n,), start=0.0, nominal=1e-4)
+    yield parameter(
+        "initial.radius",
+        f"Rolling radius {of}: velocity.spin is the speed over it",
+        unit="m",
+        shape=(n,),
+        start=declared.radius,
+        minimum=0.05,
+        maximum=2.0,
     )
     yield parameter(
         "rail.origin_y", "Distance of the origin of the rail's profile from the centre line", unit="m",

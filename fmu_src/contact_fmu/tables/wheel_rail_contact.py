@@ -48,6 +48,14 @@ _SAMPLES = {"geometry.kind": ("Separation",)}
 _CONFORMAL = {**_SAMPLES, "geometry.surface": ("Conformal",)}
 _CURVATURES = {"geometry.kind": ("Curvatures",)}
 _HALF_WIDTH = 0.02  # half width of the default separation [m]
+#: Samples of the default separation.
+POINTS = 41
+#: Inputs that pose the problem, and the outputs that answer it, without the indices of samples.
+PROBLEM = (
+    *("geometry.g", "geometry.A", "creepage.longitudinal", "creepage.lateral", "creepage.spin"),
+    *("load.normal_force",),
+)
+REACTION = ("force.x", "force.y", "moment.z", "approach")
 
 
 #: Rows that `EllipticContact` does not show.
@@ -55,7 +63,7 @@ _OF_SAMPLES = frozenset(f"geometry.{name}" for name in ("kind", "y0", "dy", "sur
 
 
 @cache
-def table(points: int = 41, elliptic: bool = False) -> Table:
+def table(points: int = POINTS, elliptic: bool = False) -> Table:
     """Return the table for a separation of `points` samples across the track (at least 3).
 
     With `elliptic` it is that of `EllipticContact`: the same model, with constant curvatures only and few inputs.

@@ -18,7 +18,7 @@ from contact.geometry.profile import Profile
 from ..runs.outcome import Outcome, outcome
 from ..runs.scenario import Scenario
 from ..runs.trust import TRUST, NotTrusted, Trust, worst
-from ..wheelset.ports import SIDES
+from ..vehicle.declared import SIDES
 from .declared_set import ScenarioSet
 from .part import Part, Rail, Wheel
 from .reprofiling import cut, forecast

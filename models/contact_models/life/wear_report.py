@@ -13,7 +13,7 @@ from contact.study.page import document, faint, html_of
 from contact.study.table import Table, number
 from ..runs.origin import origin
 from ..runs.parts import illustrated, told, warned
-from ..wheelset.ports import SIDES
+from ..vehicle.declared import SIDES
 from .part import DENSITY, Part, displacement
 from .wear import Life
 

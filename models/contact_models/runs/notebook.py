@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from contact.view.notebook import Sketch, beside, table
-from ..vehicle.simulation import SIDES
+from ..vehicle.declared import SIDES
 
 if TYPE_CHECKING:
     from .run import VehicleRun

@@ -13,9 +13,8 @@ from contact import plot
 from contact.study.page import document, faint, html_of
 from contact.study.table import Table, number
 from ..vehicle import assess, drawing, en14363
+from ..vehicle.declared import INWARDS, SIDES
 from ..vehicle.ledgers import BODIES
-from ..vehicle.simulation import SIDES
-from ..wheelset.ports import INWARDS
 from .parts import damage_of, declaration, illustrated, trusted, warned
 from .run import BALANCE, VehicleRun
 from .stability import CONICITY_AT, DECELERATION

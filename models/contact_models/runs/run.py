@@ -12,14 +12,15 @@ import numpy as np
 from contact.accumulation import Histogram
 from contact.arrays import Array
 from contact.errors import ContactError
+from contact.geometry.profile import Profile
 from ..vehicle import linear
 from ..vehicle.course import SPACING, lay
-from ..vehicle.declared import VehicleDeclaration
+from ..vehicle.declared import SIDES, VehicleDeclaration
 from ..vehicle.duration import doubt_duration
 from ..vehicle.kernels.layout import Book, Sum
 from ..vehicle.kernels.motion import spin_rate
 from ..vehicle.ledgers import BODIES, fill, ledger
-from ..vehicle.simulation import SIDES, ContactOptions, Simulation
+from ..vehicle.simulation import ContactOptions, Simulation
 from ..vehicle.track import Track
 from .notebook import of_run
 from .scenario import Scenario
@@ -92,7 +93,7 @@ class VehicleRun:
         )
         self._options = options
         uneven = self._uneven = scenario.uneven
-        rails = dict(zip(SIDES, scenario.rails, strict=True))
+        rails: dict[str, Profile] = dict(zip(SIDES, scenario.rails, strict=True))
         histograms = {
             (name, side, body): Histogram(
                 wheel if body == "wheel" else rails[side],

@@ -23,11 +23,11 @@ from contact.inputs.options import N_ELEMENTS, N_STRIPS
 from contact.registry import DEFAULT_NORMAL, DEFAULT_TANGENTIAL, lookup
 from contact.solver import require_resolution
 from ..toml import build, read_table
-from ..vehicle.declared import VehicleDeclaration
+from ..vehicle.declared import SIDES, VehicleDeclaration
 from ..vehicle.declared import find as find_vehicle
 from ..vehicle.declared import read as read_vehicle
+from ..vehicle.kernels.between import LONGEST_PACE, PACE
 from ..vehicle.sections import RailSection
-from ..vehicle.simulation import LONGEST_PACE, PACE, SIDES
 from ..vehicle.track import Speed, Track, require_forwards
 from . import reach
 from .origin import hashed

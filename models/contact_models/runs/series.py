@@ -5,8 +5,9 @@ from __future__ import annotations
 import numpy as np
 
 from contact.arrays import Array
+from ..vehicle.declared import SIDES
 from ..vehicle.kernels.layout import Axis, Sum, TrackFrame, TrackRow
-from ..vehicle.simulation import SIDES, Simulation
+from ..vehicle.simulation import Simulation
 
 #: Column of the time series → unit and meaning.
 TRACK = {

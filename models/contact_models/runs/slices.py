@@ -9,8 +9,8 @@ from typing import Any, TypeVar
 
 from contact.errors import ContactError, require_number
 from contact.geometry.surfaces import RailSurface, WheelSurface
+from ..vehicle.declared import SIDES
 from ..vehicle.sections import RailSection
-from ..vehicle.simulation import SIDES
 
 Surface = TypeVar("Surface", RailSurface, WheelSurface)
 

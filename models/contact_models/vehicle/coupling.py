@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import copy
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from typing import Any, Protocol
 
 import numpy as np
@@ -13,10 +13,11 @@ from contact.core import pack
 from contact.errors import ContactError
 from contact.instance.ownership import OwnsArrays, one_thread
 from contact.kernels.arrays import Motions
+from .declared import SIDES
 from .kernels import motion
 from .kernels.frames import speed_at
 from .kernels.layout import Book, Model, Scratch, State
-from .simulation import SIDES, Simulation
+from .simulation import Simulation
 
 #: What a contact is asked, by the names of the inputs of the FMU `WheelRailPair`.
 QUESTION = (
@@ -49,8 +50,55 @@ class Contact(Protocol):
         """Return the values of `ANSWER` for those of `QUESTION`. `step` is the time until the next question [s]."""
 
 
-class OpenVehicle(OwnsArrays):
-    """A vehicle that asks for the forces at its wheels.
+class AskingVehicle:
+    """A vehicle that asks for the forces at its wheels, wherever it is computed."""
+
+    time: float  # since the start [s]
+    n_wheels: int
+    _late: Array | None = None  # answers to the questions of the step before
+
+    def ask(self) -> Array:
+        """Return the questions at the present state, shape (wheels, len(QUESTION))."""
+        raise NotImplementedError
+
+    def move(self, answers: Array, h: float) -> None:
+        """Advance by `h` [s] with the answers to the last questions, shape (wheels, len(ANSWER))."""
+        raise NotImplementedError
+
+    def run(
+        self,
+        contacts: Sequence[Contact],
+        h: float,
+        steps: int,
+        *,
+        parallel: bool = False,
+        watch: Callable[[Array, Array], None] | None = None,
+    ) -> None:
+        """Advance by `steps` steps of `h` [s]: ask, let each contact answer, move.
+
+        With `parallel` the vehicle moves with the answers to the questions of the step before, as in a master that steps all
+        components at the same time (Jacobi). That needs half the step, and costs accuracy of first order in it. `watch` gets
+        the questions and their answers before each move.
+
+        Raises
+        ------
+        ContactError
+            If there are not as many contacts as wheels, or a contact has no answer.
+        """
+        if len(contacts) != self.n_wheels:
+            raise ContactError(f"{len(contacts)} contacts for {self.n_wheels} wheels")
+        for _ in range(steps):
+            questions = self.ask()
+            answers = [contact.answer(own, self.time, h) for contact, own in zip(contacts, questions, strict=True)]
+            now = np.array(answers)
+            if watch is not None:
+                watch(questions, now)
+            late, self._late = (now if self._late is None else self._late), now
+            self.move(late if parallel else now, h)
+
+
+class OpenVehicle(OwnsArrays, AskingVehicle):
+    """A vehicle of this package that asks for the forces at its wheels.
 
     Parameters
     ----------
@@ -65,7 +113,7 @@ class OpenVehicle(OwnsArrays):
         )  # fmt: skip
         self._arguments = pack(Model, model), pack(State, state), pack(Motions, motions), pack(Scratch, scratch)
         self.take_turns_with(simulation)
-        self._late: Array | None = None  # answers to the questions of the step before
+        self.n_wheels = scratch.wheels.size
 
     def __copy__(self) -> OpenVehicle:
         return copy.deepcopy(self)  # with a simulation of its own
@@ -83,7 +131,7 @@ class OpenVehicle(OwnsArrays):
         return tuple((simulation.names[i], side) for i in simulation.model.wheelsets for side in SIDES)
 
     @property
-    def time(self) -> float:
+    def time(self) -> float:  # type: ignore[override]
         """Time since the start [s]."""
         return self._simulation.time
 
@@ -108,26 +156,6 @@ class OpenVehicle(OwnsArrays):
         """Speed at the present place [m/s]."""
         model = self._simulation.model
         return float(speed_at(model.track, self._simulation.distance))
-
-    def run(self, contacts: Sequence[Contact], h: float, steps: int, *, parallel: bool = False) -> None:
-        """Advance by `steps` steps of `h` [s]: ask, let each contact answer, move.
-
-        With `parallel` the vehicle moves with the answers to the questions of the step before, as in a master that steps all
-        components at the same time (Jacobi). That needs half the step, and costs accuracy of first order in it.
-
-        Raises
-        ------
-        ContactError
-            If there are not as many contacts as wheels, or a contact has no answer.
-        """
-        if len(contacts) != len(self.wheels):
-            raise ContactError(f"{len(contacts)} contacts for {len(self.wheels)} wheels")
-        for _ in range(steps):
-            questions = self.ask()
-            answers = [contact.answer(own, self.time, h) for contact, own in zip(contacts, questions, strict=True)]
-            now = np.array(answers)
-            late, self._late = (now if self._late is None else self._late), now
-            self.move(late if parallel else now, h)
 
     @property
     def residual(self) -> float:

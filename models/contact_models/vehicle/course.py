@@ -9,7 +9,7 @@ import numpy as np
 
 from contact.arrays import Array
 from contact.errors import ContactError
-from .kernels.layout import TrackRow
+from .kernels.layout import BEYOND, TrackRow
 from .measured import RAIL_DISTANCE
 from .track import Track
 
@@ -19,8 +19,6 @@ MOST_PLACES = 1_000_000
 #: Kinks at the ends of transitions are rounded over this distance [m], as the bending of the rails does.
 ROUNDING = 2.0
 _HALF_BASE = 0.5 * RAIL_DISTANCE
-#: Length of track that is kept before the start and after the end [m], for bodies ahead of and behind the reference.
-BEYOND = 40.0
 
 
 def lay(track: Track, length: float, speed: Callable[[float], float], seed: tuple[int, ...], settling: float) -> Array:

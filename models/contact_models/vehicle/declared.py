@@ -2,18 +2,24 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, fields, replace
 from os import PathLike
 from pathlib import Path
 from typing import TypeVar
 
 from contact.errors import ContactError, require_number, suggestion
+from contact.geometry.wheelset import Side
 from contact.inputs.options import FLANGE_BACK, GAUGE, GAUGE_POINT, RADIUS
 from ..toml import build, read_table
 
 #: Folder of the vehicles that are included, one file each.
 INCLUDED = Path(__file__).parent / "included"
 _HELD = ("x", "y", "z", "roll", "pitch", "yaw")
+#: Sides in the order of every array of wheels.
+SIDES: tuple[Side, Side] = ("right", "left")
+#: Factor that shows an angle of a side's contact frame [rad] in degrees, positive if the rail pushes to the track's centre.
+INWARDS: dict[Side, float] = {"right": -math.degrees(1.0), "left": math.degrees(1.0)}
 
 
 def _require_vector(name: str, values: tuple[float, ...], minimum: float) -> None:

@@ -18,7 +18,6 @@ from numpy.typing import NDArray
 from contact.arrays import Array
 from contact.core import pack
 from contact.errors import ContactError
-from ..wheelset.stability import onset
 from .kernels import motion
 from .kernels.frames import speed_at
 from .kernels.layout import Axis, Model, Scratch, State
@@ -202,4 +201,16 @@ def critical_speed(
     """
     if not 0.0 < bounds[0] < bounds[1]:
         raise ContactError(f"bounds = {bounds} are not in order")
-    return onset(lambda speed: growth(at_speed(speed), amplitude) > NOISE, bounds, tolerance)
+    low, high = bounds
+
+    def unstable(speed: float) -> bool:
+        return growth(at_speed(speed), amplitude) > NOISE
+
+    if not unstable(high):
+        return math.inf
+    if unstable(low):
+        return low
+    while high - low > tolerance:
+        middle = 0.5 * (low + high)
+        low, high = (low, middle) if unstable(middle) else (middle, high)
+    return 0.5 * (low + high)

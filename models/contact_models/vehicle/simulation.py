@@ -23,21 +23,22 @@ from contact.instance.ownership import OwnsArrays, one_thread
 from contact.kernels.enumerations import Height
 from contact.kernels.memory import Ledger
 from contact.kernels.records import GIVEN
-from contact.pair import WheelRailPair
+from contact.pair import PairSolution, WheelRailPair
 from contact.registry import DEFAULT_NORMAL, DEFAULT_TANGENTIAL
 from .assembly import Assembly, assemble
-from .declared import VehicleDeclaration
+from .declared import SIDES, VehicleDeclaration
 from .kernels import motion
 from .kernels.between import LONGEST_PACE, PACE, TOLERANCE, last_solution
 from .kernels.frames import speed_at
-from .kernels.layout import Book, Model, Scratch, State, Sum, TrackRow, scratch
+from .kernels.layout import Axis, Book, Model, Scratch, State, Sum, TrackRow, scratch
 from .kernels.wheel_arrays import WheelArrays, gather
 from .notebook import of_simulation
 from .sections import RailSection, require_apart
 from .uneven import Stretch, UnevenWheels
 from .wheel_threads import WheelThreads
 
-SIDES = ("right", "left")
+#: Half the distance of the contact points [m], nearly, with which a search of the roll begins, and its tolerance [m].
+_HALF_BASE, _LEVEL, _MOST_TRIALS = 0.75, 1e-10, 60
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -238,12 +239,38 @@ class Simulation(OwnsArrays):
         motion.place(self.model, self.state, self.wheel_arrays.motions, heights, float(start), speed)
 
     def _height(self, wheel: int, speed: float, load: float) -> float:
-        """Return the height of a wheelset at which the normal forces of one of its wheels carry the static load.
+        """Return the height of a wheelset at which the normal forces of one of its wheels carry the static load."""
+        return self._carrying(wheel, Pose(), speed, load).z
 
-        With their friction a worn wheel may have no such height.
+    def _carrying(self, wheel: int, pose: Pose, speed: float, load: float) -> PairSolution:
+        """Return the contact of a wheel whose normal forces carry `load` [N]; with friction a worn wheel may have none."""
+        return self._pairs[wheel].solve(pose, Velocity(speed), load=load, friction=self._friction)
+
+    @one_thread
+    def stand_aside(self, lateral: float) -> None:
+        """Put all wheelsets `lateral` [m] to the right, rolled so that both wheels carry the static load, and rolling freely.
+
+        Raises
+        ------
+        ContactError
+            If a wheel does not lie above its rail there.
         """
-        solved = self._pairs[wheel].solve(Pose(), Velocity(speed), load=load, friction=self._friction)
-        return solved.z
+        speed = float(speed_at(self.model.track, self.distance))
+        for number, i in enumerate(self.model.wheelsets):
+            load, q = float(self.model.bodies[i]["load"]), self.state.q[i]
+            roll = before = difference = last = 0.0
+            for trial in range(_MOST_TRIALS):
+                pose = Pose(lateral, 0.0, roll)
+                right, left = (self._carrying(2 * number + side, pose, speed, load) for side in range(2))
+                last, difference = difference, right.z - left.z
+                if abs(difference) <= _LEVEL or (trial > 0 and difference == last):
+                    break
+                slope = (difference - last) / (roll - before) if trial > 0 else -2.0 * _HALF_BASE
+                before, roll = roll, roll - difference / slope
+            q[Axis.Y], q[Axis.Z], q[Axis.ROLL] = lateral, 0.5 * (right.z + left.z), roll
+            # creepage is that of the nominal radius
+            slip = [max(each.contacts, key=lambda c: c.N).creepage.longitudinal for each in (right, left)]
+            self.state.u[i, Axis.PITCH] = -speed / (self.vehicle.radius * (1.0 - 0.5 * sum(slip)))
 
     def _kept(self) -> Any:
         return {name: array.copy() for name, array in self.kept.items()}

@@ -16,20 +16,22 @@ from rich.console import Console
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
 from rich.table import Table
 
+import contact
 from contact.arrays import Array
 from contact.cli import options as opt
 from contact.cli.output import deliver, drawing, reported, stop
-from contact.geometry.wheelset import Pair, Pose
-from contact.results import Solution
+from contact.geometry.wheelset import Irregularity, Pose, Velocity
+from ..runs.scenario import Scenario
+from ..vehicle import linear
+from ..vehicle.coupling import QUESTION, AskingVehicle, OpenVehicle
+from ..vehicle.declared import INWARDS, SIDES
 from . import master
-from .components import Component, DirectContact, SolveOptions, direct
-from .master import History, Scheme
-from .parameters import WheelsetParameters
-from .ports import CONTACT_PORTS, INWARDS, SIDES, WHEELSET_PORTS
-from .stability import critical_speed
+from .contacts import ReportingContact
+from .master import MOTION, History, Scheme
+from .system import at_start, pair, python_contacts, scenario, simulation
 
-FMUS = ("Wheelset", "WheelRailContact", "WheelRailContact")
-PICTURE: SolveOptions = {"n_strips": 60, "n_elements": 60}  # finer than the run, because pictures show single elements
+FMUS = ("Wheelset", "WheelRailPair")
+PICTURE = 60  # strips and elements, finer than the run, because pictures show single elements
 
 
 @dataclass(frozen=True)
@@ -44,33 +46,33 @@ class Moment:
 @reported
 def demo(
     out: Annotated[Path, typer.Option(help="Folder for the results.")] = Path("out"),
-    seconds: Annotated[float, typer.Option(help="Simulated time in s.")] = 5.0,
-    speed: Annotated[float, typer.Option(help="Speed in m/s.")] = 28.0,
+    seconds: Annotated[float, typer.Option(help="Simulated time in s.")] = 3.0,
+    speed: Annotated[float, typer.Option(help="Speed in m/s.")] = 32.0,
     lateral: Annotated[float, typer.Option(help="Lateral offset at the start in m.")] = 5e-3,
-    step: Annotated[float, typer.Option(help="Communication step in s.")] = 1e-3,
+    step: Annotated[float, typer.Option(help="Communication step in s.")] = 5e-4,
     friction: Annotated[float, typer.Option(help="Coefficient of friction.")] = 0.3,
-    scheme: Annotated[str, typer.Option(help="gauss_seidel, jacobi or iterated.")] = "gauss_seidel",
+    scheme: Annotated[str, typer.Option(help="gauss_seidel or jacobi.")] = "gauss_seidel",
     fmus: Annotated[Path, typer.Option(help="Folder with the FMUs that `contact fmu` made.")] = Path("dist"),
     python: Annotated[bool, typer.Option("--python", help="Couple Python objects instead of FMUs.")] = False,
     as_json: opt.Json = False,
 ) -> None:
-    """Run a wheelset above its critical speed into flange contact: one Wheelset FMU and two WheelRailContact FMUs."""
+    """Run a wheelset above its critical speed into flange contact: one Wheelset FMU and two WheelRailPair FMUs."""
     plot = drawing()
     console = Console(stderr=True)
     try:
-        parameters = WheelsetParameters(speed=speed, lateral=lateral)
+        given = scenario(speed, friction)
         with ExitStack() as stack:
-            wheelset, contacts = direct(parameters, friction) if python else _fmus(stack, fmus, parameters, friction)
+            wheelset, contacts = _objects(given, lateral) if python else _fmus(stack, fmus, given, lateral)
             chosen = cast(Scheme, scheme)  # `master.run` refuses other values
-            history, durations = _run(console, wheelset, contacts, parameters, step, seconds, chosen)
+            history, durations = _run(console, wheelset, contacts, step, seconds, chosen)
         out.mkdir(parents=True, exist_ok=True)
         history.write_csv(out / "wheelset.csv")
         _histories(plot, history).savefig(out / "time_histories.png")
         files = ["wheelset.csv", "time_histories.png"]
         for moment in moments(history):
-            _picture(plot, history, moment, parameters, friction).savefig(out / f"{moment.name}.png")
+            _picture(plot, history, moment, given).savefig(out / f"{moment.name}.png")
             files.append(f"{moment.name}.png")
-        values = _summary(history, parameters, friction, durations)
+        values = _summary(history, given, durations)
         deliver(
             {"summary": values, "files": [str(out / name) for name in files]},
             show=lambda console: console.print(_table(values)),
@@ -82,11 +84,11 @@ def demo(
 
 
 def _fmus(
-    stack: ExitStack, folder: Path, parameters: WheelsetParameters, friction: float
-) -> tuple[Component, Sequence[Component]]:
+    stack: ExitStack, folder: Path, given: Scenario, lateral: float
+) -> tuple[AskingVehicle, Sequence[ReportingContact]]:
     """Return the three FMUs, initialised. `stack` frees them."""
     try:
-        from .fmu import FmuComponent
+        from .fmu import Fmu, FmuVehicle, InFmu
     except ImportError as missing:
         stop(f"{missing}; pip install 'wheelrail-contact[fmu]', or use --python", 1)
     paths = [folder / "python" / f"{name}.fmu" for name in FMUS]
@@ -97,24 +99,20 @@ def _fmus(
                 f"contact fmu --packaging python --out {folder}  elsewhere, or use --python",
                 1,
             )
-    wheelset = {"speed": parameters.speed, "initial.lateral": parameters.lateral}
-    contact = {"speed": parameters.speed, "friction.coefficient": friction, "wheel.radius": parameters.radius}
-    first, *others = (
-        stack.enter_context(FmuComponent(path, ports, start))
-        for path, ports, start in (
-            (paths[0], WHEELSET_PORTS, wheelset),
-            (paths[1], CONTACT_PORTS, contact),
-            (paths[2], CONTACT_PORTS, contact),
-        )
-    )
-    return first, others
+    inputs = {"speed": given.speed(0.0), "friction.coefficient": given.friction.static, "initial.distance": 0.0}
+    vehicle = stack.enter_context(Fmu(paths[0], at_start(simulation(given, lateral)) | inputs))
+    return FmuVehicle(vehicle), [stack.enter_context(InFmu(paths[1], side)) for side in SIDES]
+
+
+def _objects(given: Scenario, lateral: float) -> tuple[AskingVehicle, Sequence[ReportingContact]]:
+    """Return the same as Python objects."""
+    return OpenVehicle(simulation(given, lateral)), python_contacts(given)
 
 
 def _run(
     console: Console,
-    wheelset: Component,
-    contacts: Sequence[Component],
-    parameters: WheelsetParameters,
+    wheelset: AskingVehicle,
+    contacts: Sequence[ReportingContact],
     step: float,
     seconds: float,
     scheme: Scheme,
@@ -122,63 +120,53 @@ def _run(
     """Return the run and the time of each step [s]. The time of the first step includes the start of the components."""
     columns = (TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn(), TimeRemainingColumn())
     with Progress(*columns, console=console) as progress:
-        task = progress.add_task(f"wheelset at {parameters.speed:g} m/s, steps", total=None)
+        task = progress.add_task("wheelset, steps", total=None)
 
         ends = [time.perf_counter()]
 
         def watch(done: int, total: int) -> None:
             ends.append(time.perf_counter())
-            if done % 20 == 0 or done == total:
+            if done % 100 == 0 or done == total:
                 progress.update(task, completed=done, total=total)
 
-        history = master.run(
-            wheelset, contacts, speed=parameters.speed, step=step, duration=seconds, scheme=scheme, watch=watch
-        )
+        history = master.run(wheelset, contacts, step=step, duration=seconds, scheme=scheme, watch=watch)
     return history, np.diff(ends)
 
 
 def moments(history: History) -> list[Moment]:
     """Return the first passage through the centre, and the steepest contact of the right wheel."""
-    y = history["lateral"]
+    y = history["pose.y"]
     passage = int(np.argmax(np.diff(np.sign(y)) != 0.0)) if (np.diff(np.sign(y)) != 0.0).any() else 0
-    steepest = int(np.argmin(history["right.contact.angle"]))
+    steepest = int(np.argmin(history["right.angle"]))
     return [
         Moment("contacts_tread", "through the centre of the track", passage),
         Moment("contacts_flange", "steepest contact of the right wheel", steepest),
     ]
 
 
-def _solutions(history: History, index: int, parameters: WheelsetParameters, friction: float) -> list[Solution]:
-    """Return both contacts at a communication point, solved again with the resolution of a picture."""
-    solutions = []
-    for problem in history.problems[index]:
-        contact = DirectContact(parameters, friction, **PICTURE)
-        contact.write("problem", problem)
-        contact.step(0.0, 0.0)
-        solutions.append(contact.solution)
-    return solutions
+def _picture(plot: Any, history: History, moment: Moment, given: Scenario) -> Any:
+    """Return a figure of both wheels on their rails, seen from behind, and their patches, seen from above.
 
-
-def _picture(plot: Any, history: History, moment: Moment, parameters: WheelsetParameters, friction: float) -> Any:
-    """Return a figure of both wheels on their rails, seen from behind, and both patches, seen from above."""
-    p, k = parameters, moment.index
-    y, yaw, z, roll = (float(history[name][k]) for name in ("lateral", "yaw", "vertical", "roll"))
+    The patches are solved again with the resolution of a picture.
+    """
+    k = moment.index
+    pose = Pose(*(float(history[name][k]) for name in MOTION[:4]))
+    velocity = Velocity(*(float(history[name][k]) for name in MOTION[4:]))
     wheels = []
-    for side, solution in zip(SIDES, _solutions(history, k, p, friction), strict=True):
-        pair = Pair(
-            p.wheel,
-            p.rail,
-            side=side,
-            nominal_radius=p.radius,
-            gauge=p.gauge,
-            gauge_point=p.gauge_point,
-            flange_back=p.flange_back,
-            combine_distance=1.0,
-        )
-        wheels.append(plot.Wheel(side, p.wheel, p.rail, pair.contacts(Pose(y, z, roll, yaw)), [solution]))
-    figure = plot.position(wheels[::-1], roll)
+    for side in SIDES:
+        irregularity = Irregularity(*(float(history[f"{side}.{name}"][k]) for name in QUESTION[len(MOTION) : -1]))
+        patches = pair(given, side).contacts(pose, velocity, irregularity=irregularity)
+        solutions = [
+            contact.solve(
+                patch.separation, patch.creepage, approach=patch.approach, friction=given.friction, speed=given.speed(0.0),
+                throw=False, n_strips=PICTURE, n_elements=PICTURE,
+            )
+            for patch in patches
+        ]  # fmt: skip
+        wheels.append(plot.Wheel(side, given.wheel, given.rail, patches, solutions))
+    figure = plot.position(wheels[::-1], pose.roll)
     figure.suptitle(
-        f"{history['time'][k]:.3f} s, y = {1e3 * y:+.2f} mm: {moment.title}", x=0.01, ha="left", fontsize=10.0
+        f"{history['time'][k]:.3f} s, y = {1e3 * pose.y:+.2f} mm: {moment.title}", x=0.01, ha="left", fontsize=10.0
     )
     return figure
 
@@ -190,37 +178,45 @@ def _histories(plot: Any, history: History) -> Any:
         return {side: factor * history[f"{side}.{name}"] for side in sides}
 
     panels = {
-        "y [mm]": {"lateral": 1e3 * history["lateral"]},
-        "ψ [mrad]": {"yaw": 1e3 * history["yaw"]},
-        "contact angle [°]": {side: inwards * history[f"{side}.contact.angle"] for side, inwards in INWARDS.items()},
-        "N [kN]": both("load.normal_force", 1e-3),
+        "y [mm]": {"lateral": 1e3 * history["pose.y"]},
+        "ψ [mrad]": {"yaw": 1e3 * history["pose.yaw"]},
+        "contact angle [°]": {side: inwards * history[f"{side}.angle"] for side, inwards in INWARDS.items()},
+        "N [kN]": both("normal", 1e-3),
         "$F_y$ [kN]": both("force.y", 1e-3),
         "friction [kW]": both("power.friction", 1e-3),
     }
-    return plot.time_histories(history["time"], panels, title=f"wheelset S1002 on 60E1 at {history.speed:g} m/s")
+    return plot.time_histories(
+        history["time"], panels, title=f"wheelset S1002 on 60E1 at {history['velocity.x'][0]:.3g} m/s"
+    )
 
 
-def _summary(history: History, parameters: WheelsetParameters, friction: float, durations: Array) -> dict[str, str]:
+def _summary(history: History, given: Scenario, durations: Array) -> dict[str, str]:
     """Return what the run came to, as text with units."""
-    y, t = 1e3 * np.abs(history["lateral"]), history["time"]
+    y, t = 1e3 * np.abs(history["pose.y"]), history["time"]
     first, last = t <= min(0.5, t[-1]), t >= t[-1] - min(0.5, t[-1])
-    angle = max(np.abs(history[f"{side}.contact.angle"]).max() for side in SIDES)
-    load = [history[f"{side}.load.normal_force"] for side in SIDES]
+    angle = max(np.abs(history[f"{side}.angle"]).max() for side in SIDES)
+    load = [history[f"{side}.normal"] for side in SIDES]
     pressure = max(history[f"{side}.pressure.max"].max() for side in SIDES)
     dissipated = float(history.creep_power.sum() * history.step)
     residual = float(np.abs(history.power_residual).max())
     return {
-        "speed": f"{history.speed:.4g} m/s",
-        "linear critical speed": f"{critical_speed(parameters, friction):.3g} m/s",
+        "speed": f"{given.speed(0.0):.4g} m/s",
+        "linear critical speed": f"{_critical_speed(given):.3g} m/s",
         "amplitude, first half second": f"{y[first].max():.3g} mm",
         "amplitude, last half second": f"{y[last].max():.3g} mm",
         "steepest contact angle": f"{math.degrees(angle):.3g}°",
-        "normal load": f"{np.min(load) * 1e-3:.3g} … {np.max(load) * 1e-3:.3g} kN",
+        "normal forces": f"{np.min(load) * 1e-3:.3g} … {np.max(load) * 1e-3:.3g} kN",
         "greatest pressure": f"{pressure * 1e-6:.4g} MPa",
         "energy dissipated by friction": f"{dissipated:.4g} J",
         "power residual of the coupling": f"{residual:.2g} J ({100.0 * residual / dissipated:.2g} %)",
         "time per coupled step, median": f"{1e3 * np.median(durations):.2g} ms",
     }
+
+
+def _critical_speed(given: Scenario) -> float:
+    """Return the linear critical speed [m/s]."""
+    friction = given.friction.static
+    return linear.critical_speed(lambda speed: simulation(scenario(speed, friction), lateral=0.0))
 
 
 def _table(values: dict[str, str]) -> Table:

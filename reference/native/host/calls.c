@@ -65,8 +65,8 @@ static fmi2Component in_state(int state, fmi2Type type)
 }
 
 static const fmi2ValueReference load = LOAD, force = RESULT, kind = CHOICE;
-static double of_states[N_STATES + 1];
-static const double zeros[N_STATES + 1];
+static double of_states[1];
+static const double zeros[1];
 static fmi2FMUstate saved;
 static fmi2Byte bytes[1 << 16];
 static size_t size;
@@ -93,7 +93,7 @@ static fmi2EventInfo info;
     X(GetBoolean(c, NULL, 0, &flag), ALL & ~INST, ALL & ~INST, SAME) \
     X(GetString(c, NULL, 0, &text), ALL & ~INST, ALL & ~INST, SAME) \
     X(SetReal(c, &load, 1, &newton), ALL & ~TERM, ALL & ~TERM, SAME) \
-    X(SetReal(c, &force, 1, &newton), 0, RESULT_IS_STATE ? EVENT | CONT : 0, SAME) \
+    X(SetReal(c, &force, 1, &newton), 0, 0, SAME) \
     X(SetInteger(c, &kind, 1, &first), INST | INIT, INST | INIT, SAME) \
     X(SetBoolean(c, NULL, 0, &flag), ALL & ~TERM, ALL & ~TERM, SAME) \
     X(SetString(c, NULL, 0, &text), ALL & ~TERM, ALL & ~TERM, SAME) \
@@ -128,12 +128,12 @@ static fmi2EventInfo info;
     X(CompletedIntegratorStep(c, fmi2True, &flag, &other), 0, CONT, SAME) \
     X(SetTime(c, 0.1), 0, EVENT | CONT, SAME) \
     X(SetTime(c, INFINITY), 0, 0, SAME) \
-    X(SetContinuousStates(c, zeros, N_STATES), 0, CONT, SAME) \
-    X(SetContinuousStates(c, zeros, N_STATES + 1), 0, 0, SAME) \
-    X(GetDerivatives(c, of_states, N_STATES), 0, INIT | EVENT | CONT | TERM, SAME) \
+    X(SetContinuousStates(c, zeros, 0), 0, CONT, SAME) \
+    X(SetContinuousStates(c, zeros, 1), 0, 0, SAME) \
+    X(GetDerivatives(c, of_states, 0), 0, INIT | EVENT | CONT | TERM, SAME) \
     X(GetEventIndicators(c, NULL, 0), 0, INIT | EVENT | CONT | TERM, SAME) \
-    X(GetContinuousStates(c, of_states, N_STATES), 0, INIT | EVENT | CONT | TERM, SAME) \
-    X(GetNominalsOfContinuousStates(c, of_states, N_STATES), 0, INIT | EVENT | CONT | TERM, SAME)
+    X(GetContinuousStates(c, of_states, 0), 0, INIT | EVENT | CONT | TERM, SAME) \
+    X(GetNominalsOfContinuousStates(c, of_states, 0), 0, INIT | EVENT | CONT | TERM, SAME)
 
 enum { SAME = 0, STARTED = 128, SAVED = 256 }; /* after initialisation (by type); state of the saved FMU state */
 enum { FIRST_ROW = __COUNTER__ + 1 };

@@ -1,8 +1,7 @@
 /* A C host that executes commands from standard input: script LIBRARY GUID KIND RESOURCES… (0 model exchange, 1 co-simulation).
  * It makes an instance for each location of the resources, and goes on with the last one.
  * Each line is a letter, a value reference or a count, and numbers: s REFERENCE VALUE sets a Real, g REFERENCE prints it,
- * d TIME STEP does a step, t TIME sets the time, x N VALUES… sets the states and prints their derivatives. i initialises;
- * parameters are set before it. */
+ * d TIME STEP does a step, t TIME sets the time. i initialises; parameters are set before it. */
 #include <stdio.h>
 #include <stdlib.h>
 
@@ -44,8 +43,6 @@ int main(int n_arguments, char **arguments)
     FIND(fmi2GetRealTYPE, GetReal);
     FIND(fmi2DoStepTYPE, DoStep);
     FIND(fmi2SetTimeTYPE, SetTime);
-    FIND(fmi2SetContinuousStatesTYPE, SetContinuousStates);
-    FIND(fmi2GetDerivativesTYPE, GetDerivatives);
     FIND(fmi2FreeInstanceTYPE, FreeInstance);
 
     fmi2CallbackFunctions callbacks = {logger, NULL, NULL, NULL, NULL};
@@ -58,7 +55,7 @@ int main(int n_arguments, char **arguments)
     char letter;
     while (scanf(" %c", &letter) == 1) {
         unsigned n = 0;
-        double a = 0.0, b = 0.0, x[16];
+        double a = 0.0, b = 0.0;
         if (letter == 'i') {
             DO(SetupExperiment(c, fmi2False, 0.0, 0.0, fmi2False, 0.0));
             DO(EnterInitializationMode(c));
@@ -73,12 +70,6 @@ int main(int n_arguments, char **arguments)
             DO(DoStep(c, a, b, fmi2True));
         } else if (letter == 't' && scanf("%lf", &a) == 1) {
             DO(SetTime(c, a));
-        } else if (letter == 'x' && scanf("%u", &n) == 1 && n <= sizeof x / sizeof *x) {
-            for (unsigned i = 0; i < n; i++)
-                if (scanf("%lf", &x[i]) != 1) return 2;
-            DO(SetContinuousStates(c, x, n));
-            DO(GetDerivatives(c, x, n));
-            for (unsigned i = 0; i < n; i++) printf("%.17g\n", x[i]);
         } else {
             return printf("%c is not a command\n", letter), 2;
         }

@@ -82,11 +82,11 @@ static double number;
     X(F2(EnterContinuousTimeMode)(C)) \
     X(F2(CompletedIntegratorStep)(C, 1, P(integers), P(integers + 1))) \
     X(F2(SetTime)(C, 0.1)) \
-    X(F2(SetContinuousStates)(C, N_STATES ? P(seed) : seed, N(N_STATES))) \
-    X(F2(GetDerivatives)(C, N_STATES ? P(reals) : reals, N(N_STATES))) \
+    X(F2(SetContinuousStates)(C, seed, N(0))) \
+    X(F2(GetDerivatives)(C, reals, N(0))) \
     X(F2(GetEventIndicators)(C, reals, N(0))) \
-    X(F2(GetContinuousStates)(C, N_STATES ? P(reals) : reals, N(N_STATES))) \
-    X(F2(GetNominalsOfContinuousStates)(C, N_STATES ? P(reals) : reals, N(N_STATES)))
+    X(F2(GetContinuousStates)(C, reals, N(0))) \
+    X(F2(GetNominalsOfContinuousStates)(C, reals, N(0)))
 
 #define PAIR_3(X, type, array) \
     X(F3(Get##type)(C, P(choice), N(1), P(array), N(1))) \
@@ -131,11 +131,11 @@ static double number;
     X(F3(EnterContinuousTimeMode)(C)) \
     X(F3(CompletedIntegratorStep)(C, 1, P(bools), P(bools))) \
     X(F3(SetTime)(C, 0.1)) \
-    X(F3(SetContinuousStates)(C, N_STATES ? P(seed) : seed, N(N_STATES))) \
-    X(F3(GetContinuousStateDerivatives)(C, N_STATES ? P(reals) : reals, N(N_STATES))) \
+    X(F3(SetContinuousStates)(C, seed, N(0))) \
+    X(F3(GetContinuousStateDerivatives)(C, reals, N(0))) \
     X(F3(GetEventIndicators)(C, reals, N(0))) \
-    X(F3(GetContinuousStates)(C, N_STATES ? P(reals) : reals, N(N_STATES))) \
-    X(F3(GetNominalsOfContinuousStates)(C, N_STATES ? P(reals) : reals, N(N_STATES))) \
+    X(F3(GetContinuousStates)(C, reals, N(0))) \
+    X(F3(GetNominalsOfContinuousStates)(C, reals, N(0))) \
     X(F3(GetNumberOfEventIndicators)(C, P(sizes))) \
     X(F3(GetNumberOfContinuousStates)(C, P(sizes))) \
     X(F3(EnterStepMode)(C)) \

@@ -1,8 +1,7 @@
 /* Directional and adjoint derivatives: products with the matrix that the model knows, difference quotients for the rest.
  *
- * They are those of outputs and state derivatives with respect to inputs and states (in initialisation: inputs and parameters)
- * at their present values. In co-simulation outputs are also taken as functions of the present inputs, as a step from a cold
- * start computes them in a model without states. */
+ * They are those of outputs with respect to inputs (in initialisation: inputs and parameters) at their present values. In
+ * co-simulation outputs are also taken as functions of the present inputs, as a step from a cold start computes them. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -35,7 +34,7 @@ static void displaced(Instance *instance, const double *seeds, double h, bool la
 static bool same_inputs(const Instance *instance, const double *a, const double *b)
 {
     for (size_t i = 0; i < N(values); i++)
-        if (instance->table.variables[i].role & (PARAMETER | INPUT | STATE) && a[i] != b[i]) return false;
+        if (instance->table.variables[i].role & (PARAMETER | INPUT) && a[i] != b[i]) return false;
     return true;
 }
 
@@ -166,7 +165,7 @@ static Status begin(Instance *instance, const char *function, const Reference un
     status = check_references(instance, unknowns, n_unknowns, REAL, ANY_OUTPUT | FIELD, of_unknowns, function);
     if (status == OK)
         status = check_references(instance, knowns, n_knowns, REAL | INTEGER | ENUMERATION | BOOLEAN,
-                                  INPUT | (instance->is.phase == INITIALIZATION ? PARAMETER : STATE), of_knowns, function);
+                                  INPUT | (instance->is.phase == INITIALIZATION ? PARAMETER : 0), of_knowns, function);
     choose(instance, instance->values);
     if (status == OK) status = check_ranges(instance, instance->values, N(values));
     if (status == OK) status = prepare(instance, instance->values);

@@ -152,13 +152,9 @@ static Status keep_finite(Instance *instance, const double *before)
 }
 
 /* Compute the outputs in `values` (of the instance or another array) with working memory as it is. Return the number of a
- * message. In initialisation the states get their start values. In co-simulation nothing else is computed then, since states
- * do not follow inputs at once. */
+ * message. */
 int64_t evaluate(const Instance *instance, double *values, double h)
 {
-    bool starting = N(states) > 0 && instance->is.phase == INITIALIZATION;
-    int64_t number = starting ? instance->kernels->start(values, instance->work, instance->resources, instance->table.own) : 0;
-    if (has_failed(instance, number) || (starting && instance->type == CO_SIMULATION)) return number;
     return instance->kernels->outputs(values, instance->work, h, instance->resources, instance->table.own);
 }
 
@@ -168,7 +164,7 @@ static double rate(const Total *t, const double *values)
     return t->rate == NONE ? speed : speed * values[t->rate];
 }
 
-/* Compute the outputs for the present values and advance states and totals by h. With `warm` start from the last step. */
+/* Compute the outputs for the present values and advance totals by h. With `warm` start from the last step. */
 Status update(Instance *instance, double h, bool warm)
 {
     double *values = instance->values, *before = instance->before;

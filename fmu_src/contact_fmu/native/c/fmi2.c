@@ -262,29 +262,29 @@ fmi2Status fmi2CompletedIntegratorStep(fmi2Component c, fmi2Boolean no_set_state
 fmi2Status fmi2SetContinuousStates(fmi2Component c, const fmi2Real x[], size_t n)
 {
     NO_NULL(c, IF(n, x));
-    return SHARED(set_states(c, __func__, x, n));
+    return SHARED(set_none(c, __func__, n));
 }
 
 fmi2Status fmi2GetContinuousStates(fmi2Component c, fmi2Real x[], size_t n)
 {
     NO_NULL(c, IF(n, x));
-    return SHARED(get_states(c, __func__, x, n));
+    return SHARED(get_none(c, __func__, n));
 }
 
 fmi2Status fmi2GetDerivatives(fmi2Component c, fmi2Real derivatives[], size_t n)
 {
     NO_NULL(c, IF(n, derivatives));
-    return SHARED(get_derivatives(c, __func__, derivatives, n));
+    return SHARED(get_none(c, __func__, n));
 }
 
 fmi2Status fmi2GetNominalsOfContinuousStates(fmi2Component c, fmi2Real nominals[], size_t n)
 {
     NO_NULL(c, IF(n, nominals));
-    return SHARED(get_nominals(c, __func__, nominals, n));
+    return SHARED(get_none(c, __func__, n));
 }
 
 fmi2Status fmi2GetEventIndicators(fmi2Component c, fmi2Real indicators[], size_t n)
 {
     (void)indicators;
-    return SHARED(get_indicators(c, __func__, n));
+    return SHARED(get_none(c, __func__, n));
 }

@@ -270,42 +270,41 @@ fmi3Status fmi3CompletedIntegratorStep(fmi3Instance c, fmi3Boolean no_set_state_
 fmi3Status fmi3SetContinuousStates(fmi3Instance c, const fmi3Float64 x[], size_t n)
 {
     NO_NULL(c, IF(n, x));
-    return SHARED(set_states(c, __func__, x, n));
+    return SHARED(set_none(c, __func__, n));
 }
 
 fmi3Status fmi3GetContinuousStates(fmi3Instance c, fmi3Float64 x[], size_t n)
 {
     NO_NULL(c, IF(n, x));
-    return SHARED(get_states(c, __func__, x, n));
+    return SHARED(get_none(c, __func__, n));
 }
 
 fmi3Status fmi3GetContinuousStateDerivatives(fmi3Instance c, fmi3Float64 derivatives[], size_t n)
 {
     NO_NULL(c, IF(n, derivatives));
-    return SHARED(get_derivatives(c, __func__, derivatives, n));
+    return SHARED(get_none(c, __func__, n));
 }
 
 fmi3Status fmi3GetNominalsOfContinuousStates(fmi3Instance c, fmi3Float64 nominals[], size_t n)
 {
     NO_NULL(c, IF(n, nominals));
-    return SHARED(get_nominals(c, __func__, nominals, n));
+    return SHARED(get_none(c, __func__, n));
 }
 
 fmi3Status fmi3GetEventIndicators(fmi3Instance c, fmi3Float64 indicators[], size_t n)
 {
     (void)indicators;
-    return SHARED(get_indicators(c, __func__, n));
+    return SHARED(get_none(c, __func__, n));
 }
 
 fmi3Status fmi3GetNumberOfContinuousStates(fmi3Instance c, size_t *n)
 {
-    const Instance *instance = c;
     NO_NULL(c, n);
-    return SHARED(count_of(c, __func__, (size_t)N(states), n));
+    return SHARED(count_none(c, __func__, n));
 }
 
 fmi3Status fmi3GetNumberOfEventIndicators(fmi3Instance c, size_t *n)
 {
     NO_NULL(c, n);
-    return SHARED(count_of(c, __func__, 0, n));
+    return SHARED(count_none(c, __func__, n));
 }

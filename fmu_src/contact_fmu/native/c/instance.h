@@ -23,7 +23,6 @@ typedef struct {
     int64_t (*memory)(double *values, const double *resources, const double *own);
     int64_t (*size)(double *values, const double *resources, const double *own);
     int64_t (*prepare)(double *values, double *work, const double *resources, const double *own);
-    int64_t (*start)(double *values, double *work, const double *resources, const double *own);
     int64_t (*outputs)(double *values, double *work, double h, const double *resources, const double *own);
     int64_t (*lazy)(double *values, double *work, const double *resources, const double *own);
     int64_t (*jacobian)(double *values, double *work, const double *resources, const double *own);
@@ -43,14 +42,13 @@ typedef enum {
     PARAMETER = 1,
     INPUT = 2,
     OUTPUT = 4,
-    STATE = 8, /* continuous state, which is also an output */
     TOTAL = 16, /* output that is integrated over time, with a start value */
     FIELD = 32, /* output of FMI 3.0, an array whose size depends on the resolution */
     TIME = 64,  /* a variable only in FMI 3.0 */
     TUNABLE = 256, /* with PARAMETER: may change between steps and in event mode */
     ACCUMULATED = 128 /* output that adds up and is not in `values`: at the end of the warm start, if anything accumulates */
 } Role;
-#define ANY_OUTPUT (OUTPUT | STATE | TOTAL | ACCUMULATED)
+#define ANY_OUTPUT (OUTPUT | TOTAL | ACCUMULATED)
 typedef uint32_t Reference;
 
 /* A value that is used only with some items of an enumeration, a bit for each; without bits it is always used. */
@@ -68,12 +66,6 @@ typedef struct {
     double start, minimum, maximum;
     Use used[MOST_USES];
 } Variable;
-
-/* A continuous state of model exchange: value references of the state and of its derivative, and its nominal value. */
-typedef struct {
-    int64_t value, derivative;
-    double nominal;
-} Continuous;
 
 /* A file in resources/ that an instance reads, the bytes with which it begins, its number of rows and most points of a row. */
 typedef struct {
@@ -115,7 +107,7 @@ enum { MOST_DOUBTS = 64 };
 typedef struct {
     uint64_t bytes; /* of the file from here on */
     uint64_t guid, name, kind; /* texts */
-    uint64_t n_values, n_accumulated, n_fields, n_parameters, n_states, n_messages, n_totals, n_choices, n_mirrors, n_resources;
+    uint64_t n_values, n_accumulated, n_fields, n_parameters, n_messages, n_totals, n_choices, n_mirrors, n_resources;
     uint64_t n_derived, n_derived_by; /* rows and columns of the matrix of derivatives that the kernels know */
     uint64_t n_doubts;
     int64_t accumulates; /* enumeration: nothing accumulates with its first item; or NONE */
@@ -130,7 +122,6 @@ typedef struct {
     double *block; /* all of it */
     const Head *head;
     const Variable *variables;
-    const Continuous *states;
     const Message *messages; /* one more than n_messages, by number */
     const Total *totals;
     const Twin *choices, *mirrors;
@@ -279,12 +270,9 @@ Status update_discrete(Instance *instance, const char *function);
 Status enter_continuous(Instance *instance, const char *function);
 Status completed_step(Instance *instance, const char *function);
 Status set_time(Instance *instance, const char *function, double time);
-Status set_states(Instance *instance, const char *function, const double x[], size_t n);
-Status get_states(Instance *instance, const char *function, double x[], size_t n);
-Status get_derivatives(Instance *instance, const char *function, double derivatives[], size_t n);
-Status get_nominals(Instance *instance, const char *function, double nominals[], size_t n);
-Status get_indicators(Instance *instance, const char *function, size_t n);
-Status count_of(const Instance *instance, const char *function, size_t there_are, size_t *n);
+Status set_none(Instance *instance, const char *function, size_t n);
+Status get_none(Instance *instance, const char *function, size_t n);
+Status count_none(const Instance *instance, const char *function, size_t *n);
 
 /* state.c */
 Status get_state(Instance *instance, const char *function, void **target);

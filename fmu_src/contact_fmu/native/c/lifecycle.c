@@ -106,14 +106,13 @@ static void restart(Instance *instance)
     int64_t kind##_memory_##cpu(double *, const double *, const double *); \
     int64_t kind##_size_##cpu(double *, const double *, const double *); \
     int64_t kind##_prepare_##cpu(double *, double *, const double *, const double *); \
-    int64_t kind##_start_##cpu(double *, double *, const double *, const double *); \
     int64_t kind##_outputs_##cpu(double *, double *, double, const double *, const double *); \
     int64_t kind##_lazy_##cpu(double *, double *, const double *, const double *); \
     int64_t kind##_jacobian_##cpu(double *, double *, const double *, const double *); \
     double kind##_difference_##cpu(double *, int64_t, const double *, const double *); \
     int64_t kind##_field_##cpu(double *, double *, int64_t, const double *, const double *);
 #define LIST(kind, cpu) \
-    {#kind, kind##_memory_##cpu, kind##_size_##cpu, kind##_prepare_##cpu, kind##_start_##cpu, kind##_outputs_##cpu, \
+    {#kind, kind##_memory_##cpu, kind##_size_##cpu, kind##_prepare_##cpu, kind##_outputs_##cpu, \
      kind##_lazy_##cpu, kind##_jacobian_##cpu, kind##_difference_##cpu, kind##_field_##cpu},
 #define KERNELS(cpu) \
     KINDS(DECLARE, cpu) \

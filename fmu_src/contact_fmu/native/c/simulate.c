@@ -78,63 +78,30 @@ Status set_time(Instance *instance, const char *function, double time)
     return OK;
 }
 
-/* Require a state in which data of the continuous states may be read. */
-#define READABLE (EVENT | CONTINUOUS | (instance->type == MODEL_EXCHANGE ? INITIALIZATION | TERMINATED : 0))
-
-static Status wrong_number(const Instance *instance, const char *function, size_t n, size_t there_are)
+/* No model has continuous states or event indicators. */
+static Status must_be_none(const Instance *instance, const char *function, size_t n)
 {
-    return report(instance, LOG_ERROR, "%s: there are %zu, but %zu were requested", function, there_are, n);
+    return n == 0 ? OK : report(instance, LOG_ERROR, "%s: there are 0, but %zu were requested", function, n);
 }
 
-/* Any values are accepted. The next computation checks them. */
-Status set_states(Instance *instance, const char *function, const double x[], size_t n)
+Status set_none(Instance *instance, const char *function, size_t n)
 {
     REQUIRE(instance, function, CONTINUOUS);
-    if (n != N(states)) return wrong_number(instance, function, n, N(states));
-    for (size_t i = 0; i < n; i++) instance->values[instance->table.states[i].value] = x[i];
-    if (n > 0) instance->is.is_new = true;
-    return OK;
+    return must_be_none(instance, function, n);
 }
 
-Status get_states(Instance *instance, const char *function, double x[], size_t n)
-{
-    Status status = OK;
-    REQUIRE(instance, function, READABLE);
-    if (n != N(states)) return wrong_number(instance, function, n, N(states));
-    if (n > 0 && instance->is.phase == INITIALIZATION) status = refresh(instance);
-    if (status > WARNING) return status;
-    for (size_t i = 0; i < n; i++) x[i] = instance->values[instance->table.states[i].value];
-    return status;
-}
+/* Phases in which a model's states and indicators may be read. */
+#define READABLE (EVENT | CONTINUOUS | (instance->type == MODEL_EXCHANGE ? INITIALIZATION | TERMINATED : 0))
 
-Status get_derivatives(Instance *instance, const char *function, double derivatives[], size_t n)
-{
-    Status status = OK;
-    REQUIRE(instance, function, READABLE);
-    if (n != N(states)) return wrong_number(instance, function, n, N(states));
-    if (n > 0 && instance->is.phase != TERMINATED) status = refresh(instance);
-    if (status > WARNING) return status;
-    for (size_t i = 0; i < n; i++) derivatives[i] = instance->values[instance->table.states[i].derivative];
-    return status;
-}
-
-Status get_nominals(Instance *instance, const char *function, double nominals[], size_t n)
+Status get_none(Instance *instance, const char *function, size_t n)
 {
     REQUIRE(instance, function, READABLE);
-    if (n != N(states)) return wrong_number(instance, function, n, N(states));
-    for (size_t i = 0; i < n; i++) nominals[i] = instance->table.states[i].nominal;
-    return OK;
+    return must_be_none(instance, function, n);
 }
 
-Status get_indicators(Instance *instance, const char *function, size_t n)
-{
-    REQUIRE(instance, function, READABLE);
-    return n == 0 ? OK : wrong_number(instance, function, n, 0);
-}
-
-Status count_of(const Instance *instance, const char *function, size_t there_are, size_t *n)
+Status count_none(const Instance *instance, const char *function, size_t *n)
 {
     REQUIRE(instance, function, READABLE | (instance->type == MODEL_EXCHANGE ? INSTANTIATED | CONFIGURATION : 0));
-    *n = there_are;
+    *n = 0;
     return OK;
 }

@@ -45,7 +45,7 @@ static bool lay(Table *t)
 {
     const Head *h = (const Head *)t->block;
     const char *at = (const char *)t->block + sizeof *h;
-    const uint64_t counts[] = {h->n_values, h->n_accumulated, h->n_fields, h->n_states, h->n_messages, h->n_totals,
+    const uint64_t counts[] = {h->n_values, h->n_accumulated, h->n_fields, h->n_messages, h->n_totals,
                                h->n_choices, h->n_mirrors, h->n_resources, h->n_derived, h->n_derived_by, h->n_doubts,
                                h->n_own, h->n_text};
     for (size_t i = 0; i < sizeof counts / sizeof *counts; i++)
@@ -53,7 +53,6 @@ static bool lay(Table *t)
     t->head = h;
 #define PART(member, n) (t->member = (const void *)at, at += (n) * sizeof *t->member)
     PART(variables, h->n_values + h->n_accumulated + h->n_fields + 1);
-    PART(states, h->n_states);
     PART(messages, h->n_messages + 1);
     PART(totals, h->n_totals);
     PART(choices, h->n_choices);
@@ -96,8 +95,6 @@ static const char *fault(const Table *t)
             if (v->used[k].items && !(IS_VALUE(v->used[k].enumeration) && t->variables[v->used[k].enumeration].maximum < 32 &&
                                       t->variables[v->used[k].enumeration].minimum >= 0)) return "variables";
     }
-    for (uint64_t i = 0; i < h->n_states; i++)
-        if (!IS_VALUE(t->states[i].value) || !IS_VALUE(t->states[i].derivative)) return "states";
     for (uint64_t i = 0; i <= h->n_messages; i++)
         if (!IS_TEXT(t->messages[i].text) || t->messages[i].category < 0 || t->messages[i].category > LOG_DISCARD ||
             t->messages[i].category == 3) return "messages";

@@ -86,7 +86,6 @@ Status before_set(Instance *instance, const char *function, const Reference refs
     REQUIRE(instance, function, INSTANTIATED | CONFIGURATION | INITIALIZATION | RUNNING);
     if (instance->is.phase & (INSTANTIATED | INITIALIZATION)) roles |= PARAMETER | TOTAL;
     if (instance->is.phase & (EVENT | STEP_COMPLETE | STEP_FAILED)) roles |= TUNABLE;
-    if (instance->is.phase & (EVENT | CONTINUOUS)) roles |= STATE; /* beyond the standard; CasADi sets states so */
     if (instance->arrays && n > 0 && (kinds == COUNT) != (instance->is.phase == CONFIGURATION))
         return report(instance, LOG_ERROR, "%s: only structural parameters are set, and only in configuration mode", function);
     if (instance->is.phase == CONFIGURATION) roles = PARAMETER;

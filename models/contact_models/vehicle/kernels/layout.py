@@ -72,6 +72,10 @@ class TrackRow(IntEnum):
 TO_LEFT = TrackRow.LEFT_Y - TrackRow.RIGHT_Y
 
 
+#: Length of track that is kept before the start and after the end [m], for bodies ahead of and behind the reference.
+BEYOND = 40.0
+#: Largest distance [m] and angle [rad] of a body from its place; a vehicle that is further is lost.
+FARTHEST = 5.0
 #: Share of load times approach that a contact stores: exact for an elliptic one.
 ELASTIC = 0.4
 

@@ -6,7 +6,7 @@ from contact.core import entry, kernel
 from contact.kernels.arrays import Motions, Numbers, Search
 from .elements import pull
 from .frames import carried, drift, gyrate, lay_frames, speed_at
-from .layout import Axis, Body, Book, Model, Scratch, State, TrackFrame
+from .layout import BEYOND, FARTHEST, Axis, Body, Book, Model, Scratch, State, TrackFrame, TrackRow
 from .wheel_arrays import WheelArrays
 from .wheels import add_wheel_forces, advance_rails, count, fill_inputs, rail_energy, solve_contacts
 
@@ -147,6 +147,24 @@ def place(model: Model, state: State, motions: Motions, heights: Numbers, start:
         state.loads[axle, 0], state.loads[axle, 1] = model.bodies[i].load, model.bodies[i].load
         state.q[i, Axis.Z] = heights[axle]
         state.u[i, Axis.PITCH] = -speed / motions[2 * axle].radius
+
+
+@entry
+def has_ended(model: Model, state: State) -> bool:
+    """Return whether the vehicle has reached the end of the track, or has no finite place."""
+    s, places = state.books[Book.DISTANCE], model.track[TrackRow.PLACE]
+    return not places[0] <= s <= places[-1] - BEYOND
+
+
+@entry
+def is_near_track(state: State) -> bool:
+    """Return whether all bodies are within `FARTHEST` of their places, with finite velocities."""
+    q, total = state.q, state.q.sum() + state.u.sum() + state.rails.sum()
+    farthest = 0.0
+    for i in range(q.shape[0]):
+        for j in (Axis.Y, Axis.Z, Axis.ROLL, Axis.YAW):
+            farthest = max(farthest, abs(q[i, j]))
+    return farthest <= FARTHEST and total - total == 0.0
 
 
 @entry
