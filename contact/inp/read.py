@@ -163,13 +163,9 @@ class _Reader:
 
     def reset(self, digits: dict[str, int], now: dict[str, Any]) -> None:
         """Forget what module 3 does not keep."""
-        if digits["Z"] >= 2 or digits["D"] == 2:
-            for name in ("PLANFORM", "NPATCH", "XYLIM", "FAC"):
-                if digits["Z"] >= 2:
-                    now.pop(name, None)
-        if digits["E"] not in (1, 9):
-            now.pop("EXRHS", None)
-        for name in ("PEN", "FN", "CKSI", "CETA", "FXREL", "FYREL"):
+        geometry = ("PLANFORM", "NPATCH", "XYLIM", "FAC") if digits["Z"] >= 2 else ()
+        slip = () if digits["E"] in (1, 9) else ("EXRHS",)
+        for name in (*geometry, *slip, "PEN", "FN", "CKSI", "CETA", "FXREL", "FYREL"):
             now.pop(name, None)
 
     def block(self, block: Block, now: dict[str, Any], fresh: dict[str, int]) -> None:

@@ -129,7 +129,7 @@ def reporter(table: Table) -> Callable[..., Any]:
         for k in range(PATCHES):
             write_contact(v, rows, arrays.contacts[k : k + 1], k)
         v[at.slip_ratio] = total.slip_area / total.area if total.area > 0.0 else 0.0
-        v[at.power_friction] = abs(v[at.velocity_x]) * total.power
+        v[at.power_friction] = max(abs(v[at.velocity_x]), v[at.reference_speed]) * total.power
 
     return report
 
