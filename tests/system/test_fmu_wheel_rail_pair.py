@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 from fmpy.fmi1 import FMICallException
 from fmu_instance import Instance, discarded
-from pair_case import MOTION, NAME, compare, expected, mirrored, solved
+from pair_case import MOTION, NAME, R0, compare, expected, mirrored, solved
 from thesis_case import THESIS
 
 import contact

@@ -45,7 +45,6 @@ class Instance:
         self.component = component
         scalars = component.table.scalars
         self._n_parameters = sum(scalar.row.causality is Causality.PARAMETER for scalar in scalars)
-        self._has_states = bool(component.table.states)
         added = [r for name in component.accumulated for r in component.table.references(name)]
         self._added = slice(added[0], added[-1] + 1) if added else slice(0)
         self._adds = component.table.span[component.accumulates].start if added else 0
@@ -61,8 +60,6 @@ class Instance:
         if number := self._prepare(values):
             return number
         self._work[: self.memory.shape[1]] = self.memory[0] if h > 0.0 else 0.0
-        if h == 0.0 and self._has_states:
-            return self._call("start", values, self._work)
         return self._call("outputs", values, self._work, h)
 
     def accept(self, values: Array, h: float) -> None:
