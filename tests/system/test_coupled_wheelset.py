@@ -197,7 +197,7 @@ def test_fmus_and_python_objects_give_the_same_result(fmus, request, scheme, pac
     assert through_fmi["right.angle"].min() < math.radians(-15.0)
     for column in master.COLUMNS:
         scale = np.abs(directly[column]).max()
-        assert through_fmi[column] == pytest.approx(directly[column], abs=1e-9 * scale), column
+        assert through_fmi[column] == pytest.approx(directly[column], abs=1e-12 * scale), column
 
 
 def test_unknown_scheme_and_empty_run_are_refused():
