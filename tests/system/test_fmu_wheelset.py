@@ -75,7 +75,6 @@ def test_a_start_off_the_track_is_discarded_with_its_reason(open_wheelset):
     fmu = open_wheelset(initial__distance=2e4)
     refused(fmu.initialize, DISCARD)
     assert "initial.distance is not on it" in fmu.log[-1][1]
-    assert np.isfinite(list(fmu.all("output").values())).all()
 
 
 def test_its_outputs_connect_to_the_inputs_of_a_pair(open_wheelset, fmus, unzipped):
