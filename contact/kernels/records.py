@@ -208,7 +208,7 @@ PATCH = record(
     point_z         [m]
     share           weight of the patch, normally 1; below 1 in the transition to separate planes
     pitch           inclination of the frame's normal along the track, forward positive [rad]
-    fit_error       of the parabolas along x of a surface, root mean square over the approach [-]
+    fit_error       of the parabolas along x of a surface: root mean square over the approach, or in the slope of a row [-]
     back            range of the plane that contains the interpenetration, along x [m]; only for surfaces, as the following
     front           [m]
     left            and along y [m]

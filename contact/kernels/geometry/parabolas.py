@@ -16,6 +16,9 @@ _FAINT, _WIDE = 1e-3, 0.2
 #: The best parabola over that by moments, in A: the first counts above the second value, the second below the first. Where
 #: a row is hollow, the best parabola is nearly flat and much longer than the overlap.
 _HOLLOW, _WHOLE = 0.4, 0.8
+#: Share of a row's error in slope that counts as error of the parabolas: with it, pressures on the crossings and flats of
+#: sets E and F that are more than 5 % off are told (docs/check/limits.md).
+_OF_SLOPE = 0.8
 
 
 @kernel
@@ -65,18 +68,38 @@ def _by_moments(h: Array, x: Array, i: int, level: float, size: float) -> tuple[
 
 
 @kernel
+def _row_error(h: Array, x: Array, i: int, approach: float, out: Array) -> float:
+    """Return by how much the slope of row i differs from that of its parabola, over the slope at the parabola's end [-].
+
+    It is the root mean square over the overlap, weighted with the depth. A corner of the surface, which bears a peak of
+    pressure, hardly moves the gap of a patch, but turns its slope.
+    """
+    total, square, before, miss_before = 0.0, 0.0, 0.0, 0.0
+    g, A, x_c = out[Sep.G, i], out[Sep.A, i], out[Sep.XC, i]
+    for k in range(h.shape[1]):
+        depth, miss = approach - h[i, k], g + A * (x[i, k] - x_c) ** 2 - h[i, k]
+        least = min(depth, before)
+        if least > 0.0:
+            total += least
+            square += least * ((miss - miss_before) / (x[i, k] - x[i, k - 1])) ** 2
+        before, miss_before = depth, miss
+    half = math.sqrt(max(approach - g, 0.0) / A)
+    return math.sqrt(square / total) * half / (2.0 * approach) if total > 0.0 else 0.0
+
+
+@kernel
 def fit_rows(h: Array, x: Array, approach: float, wide: float, size: float, out: Array) -> float:
     """Fill G, A and XC of `out`: each row h(x) becomes A·(x - x_c)² + g. Return the error of the parabolas.
 
     The fit is by least squares over the part of the row that overlaps at the `approach`, weighted with the depth. So A, x_c
     and g are those of both surfaces at the pose: a flat makes A small, a ramp moves x_c. `h` is the gap from its least value,
     with AWAY where a body is absent, `wide` the length of its grid [m], and `size` that of the wheel (`search.size_of`). The
-    error is the root mean square of h minus the parabolas over the overlap, weighted with the depth, over the approach. Where
-    a strip touches at two places, as on both ends of a flat, it is large, and strips cannot describe the patch. There, and
-    where a surface ends within the
-    overlap, the parabola has the moments of the overlap (`_by_moments`).
+    error is the root mean square of h minus the parabolas over the overlap, weighted with the depth, over the approach, or that
+    in slope of one row (`_row_error`), if it is larger. Where a strip touches at two places, as on both ends of a flat, it is
+    large, and strips cannot describe the patch. There, and where a surface ends within the overlap, the parabola has the
+    moments of the overlap (`_by_moments`).
     """
-    n_x, total, square = h.shape[1], 0.0, 0.0
+    n_x, total, square, steepest = h.shape[1], 0.0, 0.0, 0.0
     for i in range(h.shape[0]):
         here = 0
         for k in range(n_x):
@@ -110,9 +133,10 @@ def fit_rows(h: Array, x: Array, approach: float, wide: float, size: float, out:
                 miss = g + A * (x[i, k] - x_c) ** 2 - h[i, k]
                 total += depth
                 square += depth * miss * miss
+        steepest = max(steepest, _row_error(h, x, i, approach, out) * math.sqrt(max(approach - least, 0.0) / approach))
     _open_beyond(out, 1, h.shape[0], 1)
     _open_beyond(out, h.shape[0] - 2, -1, -1)
-    return math.sqrt(square / total) / approach if total > 0.0 else 0.0
+    return max(math.sqrt(square / total) / approach, _OF_SLOPE * steepest) if total > 0.0 else 0.0
 
 
 @kernel
