@@ -143,3 +143,18 @@ def test_the_files_obey_the_symmetries(path):
     assert (values[:, -1, :, :, 0] == 0.0).all()
     assert (values[:, :, [0, -1], :, 0] == 0.0).all()
     assert (values[:, 0, table.N_BETA // 2, :, 1:3] == 0.0).all()
+
+
+@pytest.mark.parametrize(
+    ("creepage", "before"), [((0.0, 4e-3, 0.0), 0.0117), ((0.0, 0.0, -3.0), 0.0084), ((0.0, 1.5e-3, 0.4), 0.0071)]
+)
+def test_a_lopsided_patch_has_the_half_spaces_longitudinal_force(creepage, before):
+    """Its strips do not displace each other evenly. `before` is the error over mu N without what that adds to the creepage."""
+    y = np.linspace(-12e-3, 12e-3, 241)
+    given = {"load": 6e4, "friction": MU}
+    half_space = {"normal": "strip_halfspace", "tangential": "halfspace", "n_strips": 64, "n_elements": 64}
+    for side in (-1.0, 1.0):
+        separation = contact.Separation(y, np.where(side * y < 0.0, 1.0, 6.0) * y**2, 1.1)
+        march = contact.solve(separation, contact.Creepage(*creepage), **given)
+        exact = contact.solve(separation, contact.Creepage(*creepage), **half_space, **given)
+        assert abs(march.Fx - exact.Fx) < 0.75 * before * MU * 6e4

@@ -25,6 +25,26 @@ from contact.kernels.tangential.skew import coupled
 from contact.kernels.tangential.table import Part, interpolated, signs, units
 from contact.kernels.tangential.ties import share_shape
 
+#: Longitudinal creepage by lateral creepage and by spin, and lateral by longitudinal, on a lopsided shape, fitted to patches
+#: of standard profiles; and most that counts of being lopsided (mapped_strip.md Eq. lopsided).
+_LATERAL, _SPIN, _LONGITUDINAL = 0.25, (0.48, 1.6, -3.0), 0.32
+_MOST = 0.2
+
+
+@kernel
+def _on_lopsided(lopsided, X, Y, Z):
+    """Return what a lopsided shape adds to X and Y (mapped_strip.md Eq. lopsided).
+
+    `lopsided` is the way from the centre of its load to that of its stiffness along y, over c. Strips do not displace each
+    other evenly then. On an ellipse it is 0.
+    """
+    square = X * X + Y * Y + Z * Z
+    fading = 1.0 / (1.0 + square)
+    sliding = square * fading * math.sqrt(fading)
+    between = square * fading * fading
+    by_spin = _SPIN[0] * fading + _SPIN[1] * sliding + _SPIN[2] * between
+    return lopsided * (_LATERAL * sliding * Y + by_spin * Z), lopsided * _LONGITUDINAL * between * X
+
 
 @kernel
 def _changes(strips, first, last, case, centre, of_patch, tables):
@@ -39,9 +59,13 @@ def _changes(strips, first, last, case, centre, of_patch, tables):
     G = case.G
     a, b = mean_ellipse(strips, first, last)
     weights, x, vx, vy, phi, limit = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
+    load, moment, stiffness, moment_of_stiffness = 0.0, 0.0, 0.0, 0.0
     for i in range(first, last):
-        weight = strips[Strip.SHARE, i] * strips[Strip.A, i] * strips[Strip.DY, i]
+        weight, y = strips[Strip.SHARE, i] * strips[Strip.A, i] * strips[Strip.DY, i], strips[Strip.Y, i]
         weights += weight
+        load, moment = load + weight * strips[Strip.P0, i], moment + weight * strips[Strip.P0, i] * y
+        stiff = weight * strips[Strip.A, i]
+        stiffness, moment_of_stiffness = stiffness + stiff, moment_of_stiffness + stiff * y
         limit += weight * strips[Strip.BOUND, i]
         x += weight * strips[Strip.XC, i]
         vx += weight * (strips[Strip.VX, i] - strips[Strip.PHI, i] * strips[Strip.Y, i])
@@ -63,9 +87,11 @@ def _changes(strips, first, last, case, centre, of_patch, tables):
     r = math.sqrt(X * X + Y * Y + spin * spin)
     to_spin *= sign_y * r / unit_spin
     by_turn_x, by_turn_y = coupled(of_patch[3], case.nu, r, coefficients, c, (vx, vy, phi))
+    lopsided = min(max((moment_of_stiffness / stiffness - moment / load) / c, -_MOST), _MOST)
+    by_side_x, by_side_y = _on_lopsided(lopsided, X, Y, unit_z * phi)
     return (
-        sign_x * r * to_x / unit_x + to_spin * centre + by_turn_x,
-        sign_y * r * to_y / unit_y - to_spin * x + by_turn_y,
+        (sign_x * r * to_x + by_side_x) / unit_x + to_spin * centre + by_turn_x,
+        (sign_y * r * to_y + by_side_y) / unit_y - to_spin * x + by_turn_y,
         to_spin,
         exponent,
     )
