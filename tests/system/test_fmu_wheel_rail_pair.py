@@ -151,8 +151,8 @@ def test_a_wheel_that_spins_on_the_spot_dissipates_its_friction_times_its_slip(f
         ("offset.z_rate", math.nan, "offset.z_rate = nan is not finite"),
         ("offset.yaw", 0.098, "offset"),  # with the wheelset's yaw beyond 0.1
         ("load.normal_force", -1e4, "load.normal_force = -10000 is outside the allowed range [-1000, inf["),
-        ("pose.y", 1.0, "pose.y"),
-        ("load.normal_force", 1e12, "load"),
+        ("pose.y", 1.0, "pose.y = 1: the profiles of wheel and rail do not overlap"),
+        ("load.normal_force", 1e12, "load.normal_force = 1e+12: no height was found"),
     ],
 )
 def test_a_bad_input_is_discarded_by_name_and_the_instance_goes_on(fmu, name, value, says):

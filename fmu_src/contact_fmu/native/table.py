@@ -28,6 +28,12 @@ def content(component: Component, guid: str) -> bytes:
     return _Writer(component).content(guid)
 
 
+def about(table: Table, message: str) -> tuple[str, str]:
+    """Return the name of the row with which a message begins, empty if there is none, and the rest of the message."""
+    name, _, rest = message.partition(": ")
+    return (name, rest) if name in table.row else ("", message)
+
+
 class _Writer:
     def __init__(self, component: Component) -> None:
         self.component, self.table = component, component.table
@@ -49,12 +55,12 @@ class _Writer:
         shown = [row for row in table.twins if not row.is_given]
         messages = [(_WARNING, i, text) for i, text in component.warnings.items()]
         messages += [(_DISCARD, i, text) for i, text in component.failures.items()]
-        by_number = {int(i): (category, self.text(text)) for category, i, text in messages}
+        by_number = {int(i): (category, *self.message(text)) for category, i, text in messages}
         last = max([0, *by_number])
         doubted = [self.doubt(rule) for rule in doubts.rules(table)]
         parts = [
             *self.variables(),
-            *(struct.pack("<qq", *by_number.get(i, (0, 0))) for i in range(last + 1)),
+            *(struct.pack("<qqq", *by_number.get(i, (0, 0, _NONE))) for i in range(last + 1)),
             *(
                 struct.pack("<qqq", self.at(total), *(_NONE if row is None else self.at(row) for row in rates))
                 for total, rates in component.totals.items()
@@ -78,6 +84,11 @@ class _Writer:
         body = struct.pack(f"<{len(head)}q", *head) + b"".join(parts) + texts
         body = struct.pack("<Q", len(body) + 8) + body
         return MAGIC + struct.pack("<Q", checksum(body)) + body
+
+    def message(self, text: str) -> tuple[int, int]:
+        """Return the text of a message and the value that it is about."""
+        name, rest = about(self.table, text)
+        return self.text(rest), self.at(name) if name else _NONE
 
     def doubt(self, rule: doubts.Rule) -> bytes:
         first, *rest = (self.at(row) for row in rule.rows)

@@ -25,6 +25,7 @@ from contact.arrays import Array
 from contact.errors import ContactError
 from ..description import LOG_CATEGORIES, model_description
 from ..native.component import Component
+from ..native.table import about
 from ..variables import Causality, Kind, Table
 from .doubting import Doubting
 from .ending import release_once
@@ -268,10 +269,9 @@ class TableSlave(Fmi2Slave):
             raise ContactError(f"{name} has no finite value for these inputs")
 
     def _reason(self, number: int, values: Array) -> str:
-        """Return why a step is discarded. Where the text begins with the name of a variable, it gets its value."""
-        name, colon, text = self.component.failures[number].partition(": ")
-        span = self.table.span.get(name)
-        return f"{name}{colon}{text}" if span is None else f"{name} = {values[span.start]:g}: {text}"
+        """Return why a step is discarded, with the value that this is about."""
+        name, text = about(self.table, self.component.failures[number])
+        return f"{name} = {values[self.table.span[name].start]:g}: {text}" if name else text
 
     def _choose(self) -> None:
         """Let the choices that are not 0 be the values of their enumerations."""

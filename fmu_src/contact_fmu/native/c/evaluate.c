@@ -64,7 +64,10 @@ bool has_failed(const Instance *instance, int64_t number) { return message(insta
 Status say(const Instance *instance, int64_t number)
 {
     const Message *m = message(instance, number);
-    return m->category ? report(instance, (Category)m->category, "%s", TEXT(m->text)) : OK;
+    if (!m->category) return OK;
+    if (m->value == NONE) return report(instance, (Category)m->category, "%s", TEXT(m->text));
+    return report(instance, (Category)m->category, "%s = %g: %s", TEXT(instance->table.variables[m->value].name),
+                  instance->values[m->value], TEXT(m->text));
 }
 
 /* Return the first number of a doubt that is not usual, with its place in `at`, or 0. */

@@ -86,11 +86,13 @@ typedef struct {
     int64_t twin, of;
 } Twin;
 
-/* A message of the model, by number: a warning or the reason to discard a step. There is no text if there is nothing to log. */
+/* A message of the model, by number: a warning or the reason to discard a step, of a value if it is one's. There is no text if
+ * there is nothing to log. */
 typedef enum { LOG_WARNING = 1, LOG_DISCARD = 2, LOG_ERROR = 4 } Category;
 typedef struct {
     int64_t category; /* Category, or 0 */
     uint64_t text;
+    int64_t value; /* or NONE */
 } Message;
 
 /* A number that is allowed but not usual: the value, of an array any of its n ones, or, of a wheel that moves, the slip

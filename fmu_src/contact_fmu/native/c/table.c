@@ -97,7 +97,7 @@ static const char *fault(const Table *t)
     }
     for (uint64_t i = 0; i <= h->n_messages; i++)
         if (!IS_TEXT(t->messages[i].text) || t->messages[i].category < 0 || t->messages[i].category > LOG_DISCARD ||
-            t->messages[i].category == 3) return "messages";
+            t->messages[i].category == 3 || !IS_VALUE_OR_NONE(t->messages[i].value)) return "messages";
     for (uint64_t i = 0; i < h->n_totals; i++)
         if (!IS_VALUE(t->totals[i].total) || !IS_VALUE_OR_NONE(t->totals[i].rate) || !IS_VALUE_OR_NONE(t->totals[i].speed))
             return "totals";
