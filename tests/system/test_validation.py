@@ -149,6 +149,12 @@ def test_a_vehicle_on_given_forces_gains_their_momentum(native_vehicles, tmp_pat
         assert message in momentum(path, "manchester", wrong, answer)[0]
 
 
+def test_the_law_of_momentum_does_not_hold_where_a_frame_holds_the_vehicle():
+    """The springs of the included wheelset end in a body that stands still."""
+    table = MODELS["Wheelset"].table
+    assert momentum(Path("Wheelset.fmu"), "wheelset", case(table, vehicle="wheelset"), {}) is None
+
+
 def test_in_fmi_3_a_vehicle_on_given_forces_is_driven_by_arrays(native_vehicles, tmp_path):
     """The answers are those of FMI 2.0, whose inputs are single numbers."""
     table, found = open_vehicle.table("manchester"), []

@@ -110,6 +110,21 @@ def test_a_damper_in_series_follows_the_maxwell_law():
     assert abs(held[-1]) > 3e-4
 
 
+def test_a_wheelset_aside_stands_on_both_rails_and_rolls_on_their_mean_radius():
+    """A wheelset that is only displaced presses one rail with several times the static force."""
+    rigid = dataclasses.replace(read("wheelset"), rail=Rail(mass=0.0))
+    standing, displaced = simulation(rigid), simulation(rigid)
+    standing.stand_aside(5e-3)
+    displaced.state.q[1, Axis.Y] = 5e-3
+    for sim in (standing, displaced):
+        sim.advance(1e-6)
+    assert standing.state.q[1, Axis.ROLL] < -1e-4  # the wheel at its flange root lies higher
+    assert standing.wheels["vertical"] == pytest.approx([54550.0] * 2, rel=0.05)
+    assert displaced.wheels["normal"].max() > 2.0 * 54550.0
+    slip = standing.wheels["creep_x"]
+    assert abs(slip.sum()) < 0.05 * np.abs(slip).max()
+
+
 def test_a_rigid_track_has_no_motion_of_the_rails():
     rigid = dataclasses.replace(read("wheelset"), rail=Rail(mass=0.0))
     sim = simulation(rigid, Track(**ROUGH), settling=1.0)

@@ -248,7 +248,9 @@ class Simulation(OwnsArrays):
 
     @one_thread
     def stand_aside(self, lateral: float) -> None:
-        """Put all wheelsets `lateral` [m] to the right, rolled so that both wheels carry the static load, and rolling freely.
+        """Put all wheelsets `lateral` [m] to the right, rolled so that both wheels carry the static load.
+
+        They turn as the mean of both rolling radii rolls.
 
         Raises
         ------
