@@ -1,6 +1,7 @@
 """The height that a pair finds under a load is the height of that load: solved there from nothing it is the same answer."""
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -9,6 +10,8 @@ from contact import Status
 from contact.geometry import profile
 from contact.geometry.surfaces import SurfacePair
 from contact.geometry.wheelset import Pair, Pose, Velocity
+from contact.inputs.material import STEEL
+from contact.instance import workspace
 from contact.pair import WheelRailPair
 
 VELOCITY = Velocity(forward=20.0)
@@ -91,6 +94,27 @@ def test_three_trials_find_the_height_on_average(kind):
         counts.append(int(pair.arrays.roots["evaluations"][-1]))
     assert np.mean(counts) < 3.3
     assert max(counts) <= 6
+
+
+@pytest.mark.parametrize("kind", ["load", "vertical"])
+def test_a_distance_rolled_does_not_change_the_answer_under_a_load(kind):
+    ledger = workspace.ledger(*(np.stack((body.y, body.z)) for body in (WHEEL, RAIL)), 20, 100, -0.06, 1e-3)
+    plain, booking = WheelRailPair(Pair(WHEEL, RAIL)), WheelRailPair(Pair(WHEEL, RAIL), ledger=ledger)
+    for pose in POSES:
+        expected, found = (
+            pair.solve(pose, VELOCITY, distance=d, **{kind: 70e3}) for pair, d in ((plain, 0.0), (booking, 2.0))
+        )
+        np.testing.assert_array_equal(found.force, expected.force)
+        assert found.z == expected.z
+    assert ledger.bins.any()
+
+
+@pytest.mark.parametrize("kind", ["load", "vertical"])
+def test_a_load_is_met_where_the_pressure_is_limited(kind):
+    pair = WheelRailPair(Pair(WHEEL, RAIL), material=replace(STEEL, pressure_limit=700e6))
+    found = pair.solve(POSES[0], VELOCITY, **{kind: 80e3})
+    assert found.max_pressure == 700e6
+    assert carried(found, kind) == pytest.approx(80e3, rel=1e-4)
 
 
 @pytest.mark.parametrize("kind", ["load", "vertical"])
