@@ -1,6 +1,7 @@
 """The native `WheelRailContact` of FMI 3.0. Its library is that of FMI 2.0; arrays are variables."""
 
 import math
+import re
 from zipfile import ZipFile
 
 import fmpy
@@ -60,17 +61,27 @@ def test_an_array_is_one_variable(native_fmi3):
     assert {v.type for v in variables.values()} == {"Float64", "Int64", "UInt64", "Boolean", "Enumeration"}
 
 
-@pytest.mark.parametrize("kind", ["CoSimulation", "ModelExchange"])
-def test_every_native_fmu_is_there_in_both_versions_with_the_same_results(native, kind):
+def in_rows(result) -> dict[str, np.ndarray]:
+    """Return the columns of a result by the names of FMI 3.0: all elements of an array are one row per time."""
+    rows = {}
+    for name in result.dtype.names:
+        rows.setdefault(re.sub(r"\[[\d,]+\]", "", name), []).append(result[name].reshape(len(result), -1))
+    return {name: np.hstack(columns) for name, columns in rows.items()}
+
+
+def test_every_native_fmu_is_there_in_both_versions_with_the_same_results(native):
     two = {path.name: path for path in native.parent.glob("*.fmu")}
     three = {path.name: path for path in (native.parent / "fmi3").glob("*.fmu")}
     assert set(two) == set(three) >= {f"{NAME}.fmu"}
     for name, path in three.items():
-        options = {"fmi_type": kind, "stop_time": 0.01, "output_interval": 1e-3}
-        one, other = (fmpy.simulate_fmu(str(file), **options) for file in (two[name], path))
-        common = [column for column in one.dtype.names if column in other.dtype.names]
-        assert len(common) > 10
-        assert [column for column in common if not np.array_equal(one[column], other[column])] == [], name
+        description = fmpy.read_model_description(str(path))
+        kinds = {"CoSimulation": description.coSimulation, "ModelExchange": description.modelExchange}
+        for kind in [kind for kind, is_there in kinds.items() if is_there]:
+            options = {"fmi_type": kind, "stop_time": 0.01, "output_interval": 1e-3}
+            one, other = (in_rows(fmpy.simulate_fmu(str(file), **options)) for file in (two[name], path))
+            common = set(one) & set(other)
+            assert len(common) > 10, name
+            assert [row for row in common if not np.array_equal(one[row], other[row])] == [], (name, kind)
 
 
 # ---------------------------------------------------------------- the numbers

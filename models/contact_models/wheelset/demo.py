@@ -172,10 +172,8 @@ def _picture(plot: Any, history: History, moment: Moment, given: Scenario) -> An
 
 
 def _histories(plot: Any, history: History) -> Any:
-    sides = {side: side for side in SIDES}
-
     def both(name: str, factor: float) -> dict[str, Any]:
-        return {side: factor * history[f"{side}.{name}"] for side in sides}
+        return {side: factor * history[f"{side}.{name}"] for side in SIDES}
 
     panels = {
         "y [mm]": {"lateral": 1e3 * history["pose.y"]},
