@@ -1,5 +1,6 @@
 """Damaged text files of every reader: what comes out is made of finite numbers, or a ContactError says what is wrong."""
 
+import contextlib
 import dataclasses
 import math
 import warnings
@@ -129,6 +130,17 @@ def test_a_damaged_profile(tmp_path, name):
     path = tmp_path / name
     path.write_text(text)
     survived(path, lambda: profile.read(path, **options), 25)
+
+
+@pytest.mark.parametrize("name", PROFILES)
+def test_a_profile_that_ends_in_its_first_rows_is_read_or_refused(tmp_path, name):
+    text, options = PROFILES[name]
+    path, content = tmp_path / name, text.encode()
+    for end in range(200):
+        path.write_bytes(content[:end])
+        with warnings.catch_warnings(), contextlib.suppress(contact.ContactError):
+            warnings.simplefilter("ignore", UserWarning)
+            assert_finite(profile.read(path, **options))
 
 
 @pytest.mark.slow

@@ -222,8 +222,8 @@ def inspect(
     size = UNITS[unit] if unit else content.unit or 1.0
     if unit:  # the user says it, not the format
         content = replace(content, unit=None, told=drawings.own_unit(content.told, unit))
-    if len(content.points) > MOST_POINTS:
-        raise ContactError(f"path = {str(path)!r} holds {len(content.points)} points; allowed: {MOST_POINTS}")
+    if not 0 < len(content.points) <= MOST_POINTS:
+        raise ContactError(f"path = {str(path)!r} holds {len(content.points)} points; allowed: 1 to {MOST_POINTS}")
     measured = content.points * size
     if not (np.abs(measured) < _FARTHEST).all():
         raise ContactError(f"path = {str(path)!r}: a point is not within {_FARTHEST:g} m")

@@ -227,7 +227,7 @@ def rows_of(
             kept.append(line)
         elif line.text:
             raise ContactError(f"{where}, line {line.number}: {_short(line.text)!r} is not a point y, z")
-    values = np.array([line.values for line in kept], dtype=np.float64)
+    values = np.array([line.values for line in kept], dtype=np.float64).reshape(-1, 2)
     return Rows(values, [(line.number, _short(line.text)) for line in kept], tuple(told))
 
 
