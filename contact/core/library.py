@@ -88,7 +88,7 @@ def get_library() -> Path:
     >>> contact.get_library().is_file()
     True
     """
-    path = INSTALLED if INSTALLED.is_file() else _with_added() or cached() / NAME
+    path = _whole() or cached() / NAME
     if not path.is_file():
         raise ImportError(f"{path} was not linked: the C interface of a checkout needs cc, gcc or clang")
     return path
@@ -118,7 +118,7 @@ class Loaded:
 @cache
 def loaded() -> Loaded:
     """Return the library of this package."""
-    whole = INSTALLED if INSTALLED.is_file() else _with_added()
+    whole = _whole()
     return of_library(whole) if whole else of_folder(cached())
 
 
@@ -139,10 +139,10 @@ def of_library(path: Path) -> Loaded:
     library, end = ctypes.CDLL(str(path)), ""
     if hasattr(library, "wr_version"):
         library.wr_version.restype = ctypes.c_char_p
-    of_library = library.wr_version().decode() if hasattr(library, "wr_version") else "an unknown version"
-    if of_library != __version__:
+    version = library.wr_version().decode() if hasattr(library, "wr_version") else "an unknown version"
+    if version != __version__:
         raise ImportError(
-            f"{path} is the library of wheelrail-contact {of_library}, and this is version {__version__}. "
+            f"{path} is the library of wheelrail-contact {version}, and this is version {__version__}. "
             "Install the package again: pip install --force-reinstall wheelrail-contact"
         )
     if hasattr(library, "wr_processor"):  # it has each entry for several processors
@@ -182,11 +182,13 @@ def _of_objects(folder: Path) -> Loaded:
 _KEPT: list[object] = []
 
 
-def _with_added() -> Path | None:
-    """Return the library of this system that other packages have built with what they add, if there is one.
+def _whole() -> Path | None:
+    """Return the library with what other packages add: the installed one, or the newest that this checkout has built.
 
     A folder that is being filled has a longer name.
     """
+    if INSTALLED.is_file():
+        return INSTALLED
     found = [
         path
         for place in (f"systems-*/linked-*/{SYSTEM}", f"added-{'?' * 12}")

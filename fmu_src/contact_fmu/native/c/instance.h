@@ -1,4 +1,4 @@
-/* One instance of an FMU. Its model is data: resources/model.bin has the variables, states, totals and messages, and says
+/* One instance of an FMU. Its model is data: resources/model.bin has the variables, totals and messages, and says
  * which kernels compute it (table.c). So this code, with all kernels, is one library for every FMU. fmi2.c and fmi3.c only
  * translate. The other files define what a call does and when it is legal.
  *

@@ -151,10 +151,10 @@ def _creep_forces(contact, stiffness, bound, stick, more, ratio):
         across = min(max(along, force / max(turning, 1e-300)), stiffness)
     nx, ny = (contact.Fx / force, contact.Fy / force) if force > 0.0 else (1.0, 0.0)
     grown = force * ratio ** (1.0 - stick / 3.0) - along * (more[0] * nx + more[1] * ny)
-    derivatives = -across * (more[1] * nx - more[0] * ny)
-    size = math.sqrt(grown * grown + derivatives * derivatives)
+    aside = -across * (more[1] * nx - more[0] * ny)
+    size = math.sqrt(grown * grown + aside * aside)
     scale = min(1.0, ratio * max(bound, force) / size) if size > 0.0 else 0.0
-    return scale * (grown * nx - derivatives * ny), scale * (grown * ny + derivatives * nx)
+    return scale * (grown * nx - aside * ny), scale * (grown * ny + aside * nx)
 
 
 @kernel
@@ -189,13 +189,13 @@ def _predict(asked, now, friction, arrays, contacts, stick, power, n, row):
         z = contact.z - asked.z + motion.radius
         across = dy - droll * z + dyaw * x - (now.rail_y - asked.rail_y)
         down = dz + droll * y - (now.rail_z - asked.rail_z)
-        deeper, derivatives = c * down - s * across, c * across + s * down
-        near = near and abs(deeper) < _DEEPER * contact.approach and abs(derivatives) < _ASIDE
+        deeper, aside = c * down - s * across, c * across + s * down
+        near = near and abs(deeper) < _DEEPER * contact.approach and abs(aside) < _ASIDE
         closer = max(1.0 + deeper / contact.approach, 0.0)
         ratio = closer**power
         if closer > 0.0:
             slope += contact.N * ratio * math.log(closer)
-        sideways += _UNCERTAIN * contact.N * abs(derivatives) / _ASIDE
+        sideways += _UNCERTAIN * contact.N * abs(aside) / _ASIDE
         before_x, before_y, before_z = _slip(asked, x, y, z)
         # the place on the wheel turns with the wheelset
         x_turned, y_turned, z_turned = x - dyaw * y, y + dyaw * x - droll * z, z + droll * y
