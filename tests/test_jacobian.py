@@ -132,13 +132,5 @@ def test_a_jacobian_is_read_by_names_and_shown_with_units():
     assert json.dumps(copy.values.tolist()) == json.dumps(found.values.tolist())
 
 
-@pytest.mark.parametrize(
-    "options", [{"normal": "analyn", "tangential": "halfspace"}, {"tangential": "halfspace"}, {"force": 1e3}]
-)
-def test_where_there_are_no_derivatives_the_error_says_so(options):
-    with pytest.raises(ContactError, match="derivatives = True does not work with"):
-        contact.solve(HERTZ, STATES[0], load=80e3, derivatives=True, **options)
-
-
 def test_rows_and_columns_have_names():
     assert Jacobian(np.zeros((6, 5)), "load").rows == RESULTS

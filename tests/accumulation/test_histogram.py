@@ -359,8 +359,3 @@ def test_worn_area_of_pearce_and_sherratt_is_theirs(contacts):
         for p, s in zip(patches, solutions, strict=True)
     ]
     assert (histogram.depth * histogram.width).sum() == pytest.approx(10.0 * sum(areas), rel=1e-12)
-
-
-def test_unknown_wear_law_is_refused():
-    with pytest.raises(ContactError, match="wear_law = 'reye' is unknown; allowed: archard, usfd"):
-        DamageParameters(wear_law="reye")

@@ -129,25 +129,6 @@ def test_contact_points_are_mirror_images():
     assert (np.diff(one.radius_difference) >= 0.0).all()
 
 
-@pytest.mark.parametrize(
-    ("options", "message"),
-    [
-        ({"amplitudes": [0.0]}, r"amplitudes\[0\] = 0 is outside"),
-        ({"amplitudes": "x"}, "amplitudes = 'x' is not a number"),
-        ({"amplitudes": []}, "at least one"),
-        ({"step": 1.0}, "step = 1 is outside"),
-        ({"gauge": "wide"}, "gauge = 'wide' is not a number"),
-        ({"left_radius": 0.44}, "has the same sign"),
-        ({"left_wheel": ARC}, "is not a profile of a wheel"),
-    ],
-)
-def test_bad_input_is_named(options, message):
-    with pytest.raises(ContactError, match=message):
-        conicity(CONE, ARC, **{**ON_ARC, "amplitudes": [1e-3], "step": 1e-4, **options})
-    with pytest.raises(ContactError, match=r"y of shape \(0,\)"):
-        contact_points(CONE, ARC, [], **ON_ARC)
-
-
 def test_known_points_must_lie_at_equal_steps_and_far_enough():
     points = contact_points(CONE, ARC, [-3e-3, 0.0, 1e-3], **ON_ARC)
     with pytest.raises(ContactError, match="equal steps"):

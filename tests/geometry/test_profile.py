@@ -5,7 +5,6 @@ import math
 import numpy as np
 import pytest
 
-from contact import ContactError
 from contact.geometry import profile
 from tests.geometry.heights import height
 
@@ -83,31 +82,6 @@ def test_spline_tangents_of_points_converge_with_third_order_or_better():
         errors.append(np.abs(shape.angle - t)[2:-2].max())
     assert errors[1] < errors[0] / 8
     assert errors[2] < errors[1] / 8
-
-
-@pytest.mark.parametrize(
-    ("arguments", "message"),
-    [
-        (("hub", [0, 1, 2, 3], [0, 0, 0, 0]), "kind = 'hub'"),
-        (("rail", [0, 1, 2], [0, 0, 0]), "at least 4"),
-        (("rail", [0, 1, 2, 3], [0, 0, 0]), "equally many"),
-        (("rail", [0, 1, 1, 3], [0, 0, 0, 0]), "coincide"),
-        (("rail", [0, 1, float("nan"), 3], [0, 0, 0, 0]), "finite"),
-        (("rail", ["a", 1, 2, 3], [0, 0, 0, 0]), "not an array of numbers"),
-    ],
-)
-def test_bad_points_are_named(arguments, message):
-    with pytest.raises(ContactError, match=message):
-        profile.Profile(*arguments)
-
-
-def test_bad_parameters_of_standard_profiles_are_named():
-    with pytest.raises(ContactError, match=r"inclination = 0\.5"):
-        profile.rail_60e1(0.5)
-    with pytest.raises(ContactError, match="breakpoints = 'EN'"):
-        profile.rail_60e1(breakpoints="EN")
-    with pytest.raises(ContactError, match="conicity = -1"):
-        profile.cone(-1)
 
 
 def test_a_file_is_turned_by_inclination_and_rotation(tmp_path):

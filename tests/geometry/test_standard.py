@@ -5,7 +5,6 @@ import math
 import numpy as np
 import pytest
 
-from contact import ContactError
 from contact.geometry import profile
 from contact.geometry.wheelset import Pair, Pose, place_of_rail
 from tests.geometry.heights import height
@@ -129,22 +128,3 @@ def test_names_are_those_of_both_kinds_and_all_can_touch():
             assert shape.kind == kind
             pair = (shape, rail) if kind == "wheel" else (wheel, shape)
             assert -1e-3 < Pair(*pair, gauge_point=0.012).touch(Pose()) < 1e-3
-
-
-@pytest.mark.parametrize(
-    ("name", "options", "message"),
-    [
-        ("60E9", {}, "'60E9' is no profile of the standards, did you mean '60E[12]'"),
-        ("S1002", {"kind": "rail"}, "'S1002' is no profile"),
-        ("S1002", {"inclination": 0.025}, "S1002 has no inclination"),
-        ("60E2", {"flange_height": 0.028}, "60E2 has no flange_height"),
-        ("rail A", {"inclination": 0.05}, "EN 15302 rail A has no inclination"),
-        ("wheel B", {"flange_thickness": 0.03}, "EN 15302 B has no flange_thickness"),
-        ("60E2", {"inclination": 0.5}, "inclination = 0.5 is outside"),
-        ("1/40", {"flange_height": 28.0}, "flange_height = 28 is outside"),
-        ("EPS", {"flange_thickness": 0.03}, r"flange_thickness = 0.03 is outside the allowed range \[0.0325, 0.0325\]"),
-    ],
-)
-def test_unknown_names_and_options_are_named(name, options, message):
-    with pytest.raises(ContactError, match=message):
-        profile.named(name, **options)

@@ -6,7 +6,6 @@ import numpy as np
 import pytest
 from scipy.interpolate import CubicSpline
 
-from contact import ContactError
 from contact.geometry import profile
 from contact.geometry.surfaces import Flat, Polygon, RailSurface, SurfacePair, Wave, WheelSurface
 from contact.geometry.surfaces.frame import Frame
@@ -345,50 +344,6 @@ def test_the_height_is_continuous_along_a_crossing():
 # -- errors -----------------------------------------------------------------------------------------------------------
 
 POINTS = np.stack((ARC.y, ARC.z), axis=1)
-
-
-@pytest.mark.parametrize(
-    ("build", "message"),
-    [
-        (lambda: RailSurface([0.0, 2.0, 1.0], [POINTS] * 3), r"s must increase strictly; s\[1\] = 2, s\[2\] = 1"),
-        (lambda: RailSurface([0.0, math.nan], [POINTS] * 2), "finite positions"),
-        (lambda: RailSurface([0.0, 1.0], [POINTS]), "1 slices for 2 positions"),
-        (lambda: RailSurface([0.0], [POINTS[:3]]), "at least 4 finite points"),
-        (lambda: RailSurface([0.0], [np.where(POINTS[9] == POINTS, math.nan, POINTS)]), "at least 4 finite points"),
-        (lambda: RailSurface([0.0], [POINTS[[0, 1, 1, 2, 3]]]), "points 1 and the next coincide"),
-        (lambda: RailSurface([0.0, 1.0], [POINTS] * 2, features=[[0.0, 1.0]]), r"features has shape \(1, 2\)"),
-        (
-            lambda: RailSurface([0.0, 1.0], [POINTS] * 2, features=[[0.0, 0.01, 1.0], [0.0, math.nan, 1.0]]),
-            "without holes",
-        ),
-        (lambda: RailSurface([0.0], [POINTS], features=[[0.0, 0.03, 0.02]]), "must increase strictly"),
-        (lambda: RailSurface([0.0], [POINTS], features=[[0.0, 7.0, 9.0]]), "end within the slice"),
-        (lambda: RailSurface([0.0], [POINTS], corners=[1]), "is no inner feature"),
-        (lambda: RailSurface([0.0], [POINTS], spacing=0.0), r"spacing = 0 is outside"),
-        (lambda: RailSurface.constant(WHEEL), "not a profile of a rail"),
-        (lambda: RailSurface([0.0, 1.0], [ARC, CONE]), r"slices\[1\] = .* is not a profile of a rail"),
-        (lambda: WheelSurface([0.0, 7.0], [POINTS] * 2), "less than a full turn"),
-        (lambda: WheelSurface.from_deviations([0.0, 0.1], ARC.y, np.zeros((2, 5))), r"dr has shape \(2, 5\)"),
-        (lambda: WheelSurface.constant(CONE, 3.0), r"deviation = 3.0 has no method at\(u\)"),
-        (lambda: Polygon(0, 1e-4), "order = 0"),
-        (lambda: Flat(0.05, shape="square"), "shape = 'square'"),
-        (lambda: Flat(0.05, depth=1e-3, shape="chord"), "follows from its length"),
-        (lambda: SurfacePair(CONE, lifted(0.1)), "rail_origin = None"),
-        (lambda: SurfacePair(CONE, ARC, rows=5, **UNDER), "rows = 5 is outside"),
-        (lambda: SurfacePair(CONE, ARC, reach=1.0, **UNDER), "reach = 1 is outside"),
-        (lambda: SurfacePair(ARC, ARC, **UNDER), "not a profile of a wheel"),
-        (
-            lambda: SurfacePair(CONE, ARC, **UNDER).contacts(Pose(y=0.5), penetration=1e-4),
-            "does not lie above its rail",
-        ),
-        (lambda: SurfacePair(CONE, ARC, **UNDER).contacts(Pose(), load=1.0, penetration=1e-4), "exclude each other"),
-        (lambda: SurfacePair(CONE, ARC, **UNDER).contacts(Pose(), load=1e9), "no z was found"),
-        (lambda: SurfacePair(CONE, ARC, **UNDER).contacts(Pose(), station=math.nan), "station = nan"),
-    ],
-)
-def test_bad_input_is_refused_by_name(build, message):
-    with pytest.raises(ContactError, match=message):
-        build()
 
 
 def test_a_wheel_above_the_rail_has_no_patch():

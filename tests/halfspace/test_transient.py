@@ -114,19 +114,3 @@ def test_a_separation_and_mirrored_motion():
         s = patch.roll(contact.Creepage(1e-3, sign * 5e-4, sign * 0.2), distance=0.6e-3)
         forces.append((s.Fx, sign * s.Fy, sign * s.Mz))
     np.testing.assert_allclose(forces[0], forces[1], atol=1e-5 * MU * 80e3)
-
-
-@pytest.mark.parametrize(
-    ("call", "message"),
-    [
-        (lambda: circle().shift(math.nan), "longitudinal = nan is not finite"),
-        (lambda: circle().roll(contact.Creepage(), distance=0.0), "distance = 0 is outside"),
-        (lambda: circle().roll(1e-3, distance=1e-3), "creepage = 0.001 is neither a contact.Creepage"),
-        (lambda: Transient(contact.Separation.hertzian(1.0, 1.0), load=1.0).shift(load=2.0), "load = 2 is outside"),
-        (lambda: circle().shift(load=1.0, approach=1e-5), "only one may be given"),
-        (lambda: circle().shift(force="much"), "force = 'much'"),
-    ],
-)
-def test_bad_input_is_refused(call, message):
-    with pytest.raises(contact.ContactError, match=message):
-        call()

@@ -95,14 +95,6 @@ def test_a_gauge_in_place_of_its_deviation_is_named(tmp_path):
         over(tmp_path, ROWS + np.array([0, 0, 0, 0, 1.435]))
 
 
-@pytest.mark.parametrize(
-    ("given", "said"), [({"direction": "up"}, "neither 'rising'"), ({"unit": "cm"}, "neither 'm'")]
-)
-def test_wrong_words_are_refused(given, said):
-    with pytest.raises(ContactError, match=said):
-        Measured(file="x", **given)
-
-
 def test_a_path_alone_is_a_series_from_station_0():
     assert Track(measured="t.csv").series == Measured(file="t.csv")
 

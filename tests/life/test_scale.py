@@ -38,11 +38,6 @@ def test_killed_worker_loses_nothing(tmp_path):
     assert (tmp_path / "killed").exists()
 
 
-def test_number_of_workers_has_a_range():
-    with pytest.raises(ContactError, match=r"workers = 0 is outside the allowed range \[1, 512\]"):
-        Workers(0)
-
-
 def test_a_scheduler_without_workers_is_named(monkeypatch):
     distributed = pytest.importorskip("distributed")
     monkeypatch.setattr(scale, "_PATIENCE", 0.2)

@@ -11,7 +11,7 @@ from contact.friction import Friction
 from contact.geometry import profile
 from contact_models.runs import scenario
 from contact_models.runs.run import VehicleRun
-from contact_models.vehicle.track import Curve, Track
+from contact_models.vehicle.track import Curve
 
 EXAMPLES = Path(__file__).parents[2] / "examples" / "scenarios"
 LEAST = 'name = "x"\nlength = 100.0\nspeed = 20.0\n'
@@ -130,11 +130,6 @@ def test_curve_has_transitions_and_a_circle():
     curve = Curve(start=10.0, radius=500.0, length=40.0, transition=20.0, cant=0.15, direction="left")
     for s, share in ((0.0, 0.0), (10.0, 0.0), (20.0, 0.5), (30.0, 1.0), (70.0, 1.0), (85.0, 0.25), (90.0, 0.0)):
         assert curve.share(s) == pytest.approx(-share)
-
-
-def test_overlapping_curves_are_refused():
-    with pytest.raises(ContactError, match="starts at 100 m overlaps the previous curve, which ends at 140 m"):
-        Track(curves=tuple(Curve(start=start, radius=500.0, length=40.0) for start in (0.0, 100.0)))
 
 
 def test_profiles_of_a_scenario_take_every_option_that_the_reader_asks_for(tmp_path):

@@ -4,7 +4,6 @@ import numpy as np
 import pytest
 from scipy.integrate import quad
 
-from contact.errors import ContactError
 from contact_models.vehicle.spectra import SPECTRA, Irregularities
 
 
@@ -73,11 +72,6 @@ def test_seed_decides_everything():
     assert (one.wavenumber == same.wavenumber).all()
     assert one.at(100.0) == same.at(100.0)
     assert one.at(100.0) != other.at(100.0)
-
-
-def test_unknown_spectrum_gets_a_suggestion():
-    with pytest.raises(ContactError, match="did you mean 'ERRI B176 low'"):
-        Irregularities(spectrum="ERRI B176 lo")
 
 
 def test_values_and_slopes_along_a_track_are_those_of_single_places():

@@ -5,7 +5,6 @@ import pytest
 from contact.errors import ContactError
 from contact_models.runs.scenario import read
 from contact_models.runs.torque import Torque
-from contact_models.toml import build
 
 
 def test_lines_over_the_distance_of_the_axle():
@@ -18,20 +17,6 @@ def test_lines_over_the_distance_of_the_axle():
 
 def test_lines_over_time():
     assert Torque(at=(1.0, 2.0), values=(-4e3, 0.0), over="time").on("any", 99.0, 1.25) == -3e3
-
-
-@pytest.mark.parametrize(
-    ("table", "said"),
-    [
-        ({"at": [0.0], "values": [1.0, 2.0]}, "at has 1 places and values 2 torques"),
-        ({"at": [1.0, 0.0], "values": [1.0, 2.0]}, r"at\[1\] = 0"),
-        ({"at": [0.0], "values": [1e7]}, r"values\[0\] = 1e\+07"),
-        ({"at": [0.0], "values": [1.0], "over": "tme"}, "over = 'tme' is neither 'distance' nor 'time'.*time"),
-    ],
-)
-def test_faults_are_named(table, said):
-    with pytest.raises(ContactError, match=said):
-        build(Torque, table, "torque")
 
 
 def test_an_axle_that_the_vehicle_lacks_is_named(tmp_path):

@@ -81,11 +81,6 @@ def test_exceeded_limits_are_named(size, said):
     assert Flange(height=30e-3, thickness=30e-3, qR=9e-3).exceeded(Flange.limits()) == ""
 
 
-def test_profile_without_a_flange_has_no_sizes():
-    with pytest.raises(ContactError, match="no flange"):
-        Flange.measured(profile.cone(0.05))
-
-
 def test_wear_goes_on_to_the_mileage_in_steps_that_obey_the_rule(life):
     assert life.ended == "mileage"
     steps, length = life.plan.declared.steps, np.diff(life["mileage"])

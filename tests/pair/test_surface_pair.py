@@ -357,13 +357,6 @@ def test_bad_input_on_surfaces_is_refused_by_name(call, message):
         call(pair)
 
 
-def test_wrong_arguments_are_refused_by_name():
-    with pytest.raises(ContactError, match=r"is not a contact\.geometry\.surfaces\.SurfacePair"):
-        HalfspacePair(Pair(WHEEL, RAIL))
-    with pytest.raises(ContactError, match="only one may be given"):
-        HalfspacePair(SurfacePair(WHEEL, RAIL)).solve(Pose(), vertical=1.0, load=1.0)
-
-
 @pytest.mark.parametrize("station", [0.187, 0.189, 0.19, 0.207, 0.263])
 def test_a_load_does_not_depend_on_the_heights_before(station):
     """The force rises steadily with the height here, if the grids belong to the height (jumps of 1e-4 at most)."""

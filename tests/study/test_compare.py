@@ -87,26 +87,6 @@ def test_pairs_of_methods_are_selected_by_name():
     assert len(every_pair()) == len(known.batched.normal) * len(known.tangential) + 1
 
 
-@pytest.mark.parametrize(
-    ("given", "message"),
-    [
-        (lambda: contact.compare([]), "cases is empty or holds an object that is not a contact.Case"),
-        (lambda: contact.compare([problem(), problem()]), "two have the name 'ellipse'"),
-        (lambda: contact.compare(problem(), "magic+fastrip"), "normal = 'magic'"),
-        (lambda: contact.compare(problem(), "analyn"), "'analyn' is not a normal and a tangential method"),
-        (lambda: contact.compare(problem(), "halfspace+fastrip"), "halfspace+fastrip cannot be combined"),
-        (lambda: contact.compare(problem(), [], reference=False), "methods is empty"),
-        (lambda: contact.compare(problem(), reference_elements=2), "reference_elements = 2"),
-        (lambda: contact.compare(problem(friction=-1.0)), "friction = -1"),
-        (lambda: problem(approach=1e-5), "exactly one of load and approach"),
-        (lambda: contact.Case(1.0, contact.Creepage(), load=1.0), "separation = 1.0"),
-    ],
-)
-def test_bad_input_is_named(given, message):
-    with pytest.raises(contact.ContactError, match=re.escape(message)):
-        given()
-
-
 def test_progress_runs_from_zero_to_one():
     told = []
     contact.compare(problem(), METHODS, reference_elements=8, progress=lambda share, what: told.append((share, what)))

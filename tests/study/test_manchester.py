@@ -7,7 +7,6 @@ import math
 
 import pytest
 
-import contact
 from contact.study import Comparison
 from contact.study.manchester import Manchester, manchester, places
 from tests.study.page import Page
@@ -71,11 +70,6 @@ def test_files_hold_ours_and_contacts(three):
     page.feed(one.html())
     assert page.tags.count("picture") == 1
     assert all(link.startswith("data:image/png;base64,") for link in page.links)
-
-
-def test_no_place_is_refused():
-    with pytest.raises(contact.ContactError, match="at is empty"):
-        manchester(at=[])
 
 
 def test_the_command_shows_kpec_as_it_is():

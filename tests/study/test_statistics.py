@@ -2,7 +2,6 @@
 
 import json
 import math
-import re
 
 import numpy as np
 import pytest
@@ -123,22 +122,6 @@ def test_two_processes_give_the_same(sample):
     two = statistics(["fastrip"], cases=22, elements=8, processes=2)
     one = statistics(["fastrip"], cases=22, elements=8, processes=1)
     assert two.reference.tolist() == one.reference.tolist()
-
-
-@pytest.mark.parametrize(
-    ("given", "message"),
-    [
-        ({"tangential": ["magic"]}, "tangential = 'magic'"),
-        ({"tangential": ["halfspace"]}, "tangential = 'halfspace' is not offered here"),
-        ({"tangential": []}, "tangential is empty"),
-        ({"cases": 0}, "cases = 0 is not an integer in the allowed range [1, 4000]"),
-        ({"elements": 2.5}, "elements = 2.5"),
-        ({"elements": 1001}, "elements = 1001 is not an integer in the allowed range [4, 1000]"),
-    ],
-)
-def test_bad_input_is_named(given, message):
-    with pytest.raises(contact.ContactError, match=re.escape(message)):
-        statistics(**given)
 
 
 def test_files_hold_the_errors(sample, tmp_path):

@@ -16,7 +16,7 @@ from pair_case import METHODS, R0, expected, scale
 
 from contact.errors import ContactError
 from contact.geometry import profile
-from contact.geometry.surfaces import Flat, Polygon, RailSurface, SurfacePair, Wave, WheelSurface
+from contact.geometry.surfaces import Flat, Polygon, SurfacePair, WheelSurface
 from contact.geometry.wheelset import Irregularity, Pose, Velocity
 from contact.kernels.entries.surfaces import HEAD
 from contact.pair import WheelRailPair
@@ -319,21 +319,6 @@ def test_a_rail_of_slices_is_read_with_its_place(native_surfaces, tmp_path):
     done = command(path, "--rail", slices)
     assert done.returncode == 2
     assert "rail_origin = None" in done.stderr
-
-
-@pytest.mark.parametrize(
-    ("make", "message"),
-    [
-        (
-            lambda y: RailSurface(np.arange(400.0), [np.stack((y, y**2), axis=1)] * 400, spacing=1e-4),
-            "reads at most 2000000",
-        ),
-        (lambda y: RailSurface.constant(UIC60, Wave(0.3, 1e-4)), "has deviations, which have no end"),
-    ],
-)
-def test_what_the_fmu_cannot_hold_is_refused(make, message):
-    with pytest.raises(ContactError, match=message):
-        surfaces.pack(make(np.linspace(-0.07, 0.07, 101)))
 
 
 def test_other_fmus_take_no_surfaces_and_this_one_no_profiles(native_surfaces, native):

@@ -2,7 +2,6 @@
 
 import pytest
 
-from contact.errors import ContactError
 from contact.geometry import profile
 from contact_models.vehicle import curving, hunting, linear
 from contact_models.vehicle.declared import read
@@ -38,8 +37,3 @@ def test_the_limit_cycle_of_a_wheelset_lasts_below_the_linear_critical_speed():
     assert found.amplitude[:4].max() > 6e-3
     assert found.amplitude[-1] < 3e-3
     assert 10.0 < found.critical < 0.95 * small
-
-
-def test_bounds_of_speed_are_checked():
-    with pytest.raises(ContactError, match="two rising speeds"):
-        hunting.fall(read("wheelset"), PROFILES, (20.0, 10.0))

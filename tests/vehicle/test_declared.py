@@ -42,11 +42,6 @@ def test_faults_of_a_file_are_named(tmp_path, old, new, said):
         assemble(read(tmp_path / "v.toml"))
 
 
-def test_unknown_vehicle_is_named():
-    with pytest.raises(ContactError, match="neither a file nor one of manchester, wheelset"):
-        read("lorry")
-
-
 def test_reprofiled_wheels_are_smaller_and_all_else_stands_lower():
     whole, cut = read("manchester"), 5e-3
     lower = whole.reprofiled(cut)
