@@ -15,7 +15,7 @@ from rich.table import Table
 
 from contact.cli import arguments
 from contact.cli import options as opt
-from contact.cli.output import deliver, drawing, prepare, reported, require_trusted
+from contact.cli.output import drawing, reported, require_trusted
 from contact.cli.problem import carried
 from contact.geometry.surfaces import Deviation, RailSurface, SurfacePair, WheelSurface
 from contact.geometry.surfaces.deviation import out_of_round
@@ -83,8 +83,7 @@ def along(
     surface: arguments.SlidingFriction,
     normal: opt.Normal = "halfspace",
     tangential: Rolling = None,
-    as_json: opt.Json = False,
-    out: opt.Files = None,
+    output: arguments.Output,
 ) -> None:
     """Roll a right wheel along a rail that changes along the way (.slcs), or with a flat, a polygon or slices (.slcw).
 
@@ -92,28 +91,18 @@ def along(
 
     contact along --flat 0.05 --from -0.05 --to 0.05
     """
-    prepare(out)
     wheel = _wheel(place.wheel, reading).with_deviations(*change.deviations(place.radius))
     slices = Path(place.rail).suffix == ".slcs"
     rail = RailSurface.read(place.rail) if slices else reading.load(place.rail, "rail")
-    pair = SurfacePair(
-        wheel,
-        rail,
-        nominal_radius=place.radius,
-        gauge=place.gauge,
-        flange_back=place.back_to_back,
-        rail_origin=change.origin,
-    )
+    pair = SurfacePair(wheel, rail, **place.lengths, rail_origin=change.origin)
     motion: dict[str, Any] = {"station": np.linspace(way.begin, way.end, way.points), "velocity.x": place.speed}
     motion |= {"pose.y": place.y, "pose.roll": place.roll, "pose.yaw": place.yaw}
     motion |= carried(load, vertical)
     turned = -way.begin / place.radius if way.turned is None else way.turned  # it falls when rolling forward
     found = solver_for(pair, normal, tangential).run(motion, rotation=turned, friction=surface.law())
-    deliver(
+    output.deliver(
         {**found, "patches_of": found.patches()},
         show=lambda console: _show(found, console),
-        as_json=as_json,
-        out=out,
         rows=found.patches,
         figure=lambda: drawing().passage(found, f"{place.wheel} on {place.rail}"),
     )

@@ -4,14 +4,13 @@ from __future__ import annotations
 
 import math
 import sys
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from contextlib import redirect_stdout
 from pathlib import Path
 from typing import Annotated, Any
 
 import numpy as np
 import typer
-from rich.console import Console
 from rich.markup import escape
 
 import contact
@@ -21,16 +20,16 @@ from contact.cli.along import along
 from contact.cli.commas import Commands
 from contact.cli.compare import compare
 from contact.cli.curving import curving
-from contact.cli.document import flat, in_effect
+from contact.cli.document import in_effect
 from contact.cli.geometry import conicity, list_profiles
 from contact.cli.geometry import geometry as points
 from contact.cli.in_time import in_time
 from contact.cli.inp import inp
 from contact.cli.lut import lut
 from contact.cli.manchester import manchester
-from contact.cli.output import deliver, drawing, prepare, reported
+from contact.cli.output import deliver, drawing, reported
 from contact.cli.plugins import add_plugins
-from contact.cli.problem import Position, Touch
+from contact.cli.problem import Position
 from contact.cli.profile_check import check
 from contact.cli.rail import rail as elastic_rail
 from contact.cli.roller import roller
@@ -73,26 +72,23 @@ def solve(
     bodies: opt.Bodies = None,
     fx: opt.LongitudinalForce = None,
     fy: opt.LateralForce = None,
-    normal: opt.Normal = DEFAULT_NORMAL,
-    tangential: opt.Tangential = DEFAULT_TANGENTIAL,
+    methods: arguments.Methods,
     conformal: opt.Conformal = False,
     layer: opt.Layer = None,
     trace: opt.Trace = False,
-    as_json: opt.Json = False,
-    out: opt.Files = None,
+    output: arguments.Output,
 ) -> None:
     """Solve the contact of a wheel on a rail, or of two curvatures: patch, forces, damage.
 
     Examples:  contact solve --y 3e-3 --load 80e3   ·   contact solve --curvatures 1.1 0.8 --creepage 1e-3 0 0.1
     ·   contact solve --curvatures 1.1 0.8 --fx 12e3
     """
-    prepare(out)
     options = {"friction": surface.law(gauge_friction), "material": arguments.material(pressure_limit, bodies)}
-    options |= {"normal": normal, "tangential": tangential, **(PICTURE_RESOLUTION if out else {})}
+    options |= {**vars(methods), **(PICTURE_RESOLUTION if output.out else {})}
     options |= {"force": arguments.force(fx, fy), "layer": arguments.third_body(layer)}
     options["trace"] = trace
     arguments.require_use(context)
-    with redirect_stdout(sys.stderr if as_json else sys.stdout):  # a trace is not part of the JSON
+    with redirect_stdout(sys.stderr if output.as_json else sys.stdout):  # a trace is not part of the JSON
         if curvatures is not None:
             hertzian = problem.solve_hertzian(
                 curvatures, amount.load, amount.penetration, amount.given, options | {"speed": place.speed}
@@ -104,7 +100,7 @@ def solve(
             options |= {"conformal": conformal}
             touches = problem.solve_position(case, amount.load, amount.penetration, amount.given, options)
             title = _title(case)
-    _deliver(touches, title, place.radius, as_json, out, lambda drawn: drawn.patch(*_named(touches)))
+    report.deliver_patches(touches, title, place.radius, output)
 
 
 @app.command()
@@ -118,32 +114,31 @@ def patch(
     surface: arguments.SlidingFriction,
     gauge_friction: opt.GaugeFriction = None,
     pressure_limit: opt.PressureLimit = math.inf,
-    normal: opt.Normal = DEFAULT_NORMAL,
-    tangential: opt.Tangential = DEFAULT_TANGENTIAL,
+    methods: arguments.Methods,
     conformal: opt.Conformal = False,
-    as_json: opt.Json = False,
-    out: opt.Files = None,
+    output: arguments.Output,
 ) -> None:
     """Draw the contact patches of a wheelset position: profiles, pressure, stick and slip, tractions, energy index.
 
     Without --out it writes patch.png. Example:  contact patch --y 6e-3 --yaw 2e-3 --out flange.png
     """
     drawing()
-    prepare(out)
+    output.out = output.out or [Path("patch.png")]
     case = place.position(reading, side)
     options = {"friction": surface.law(gauge_friction), "material": arguments.material(pressure_limit)}
-    options |= {"normal": normal, "tangential": tangential, "conformal": conformal, **PICTURE_RESOLUTION}
+    options |= {**vars(methods), "conformal": conformal, **PICTURE_RESOLUTION}
     touches = problem.solve_position(case, amount.load, amount.penetration, amount.given, options)
     sides = {name: [t for t in touches if t.side == name] for name in case.sides}
 
-    def figure(drawn: Any) -> Any:
+    def figure() -> Any:
+        drawn = drawing()
         wheels = [
             drawn.Wheel(name, case.wheel, case.rail, [t.patch for t in one], [t.solution for t in one])
             for name, one in sides.items()
         ]
         return drawn.position(wheels, place.roll)
 
-    _deliver(touches, _title(case), place.radius, as_json, out or [Path("patch.png")], figure)
+    report.deliver_patches(touches, _title(case), place.radius, output, figure)
 
 
 @app.command()
@@ -163,8 +158,7 @@ def curve(
     surface: arguments.SlidingFriction,
     normal: opt.Normal = DEFAULT_NORMAL,
     tangential: opt.Tangentials = [DEFAULT_TANGENTIAL],  # noqa: B006 (typer copies it)
-    as_json: opt.Json = False,
-    out: opt.Files = None,
+    output: arguments.Output,
 ) -> None:
     """Compute creep curves: force over one creepage, for one or several tangential methods. The others are in --creepage.
 
@@ -172,7 +166,6 @@ def curve(
     Example:  contact curve --over lateral --tangential fastrip --tangential fastsim --out curve.png   ·
     contact curve --wheel s1002 --rail 60e1 --y 5e-3
     """
-    prepare(out)
     end = largest if largest is not None else (1.0 if over is opt.Motion.spin else 0.01)
     arguments.require_use(context)
     carried = problem.load_or_standard(load)
@@ -196,11 +189,9 @@ def curve(
         method: [0.0 - row[force] / max(row["N"], 1e-300) for row in rows if row["tangential"] == method]
         for method in tangential
     }
-    deliver(
+    output.deliver(
         {"rows": rows},
         show=lambda console: report.show_curve(values, curves, axis, ordinate, console),
-        as_json=as_json,
-        out=out,
         rows=lambda: rows,
         figure=lambda: drawing().curve(
             values, curves, xlabel=axis, ylabel=f"{ordinate} [-]", limit=surface.friction, title=f"{held}, {normal}"
@@ -264,35 +255,4 @@ def _title(case: Position) -> str:
     return (
         f"{case.wheel.name or 'wheel'} on {case.rail.name or 'rail'}: y = {1e3 * pose.y:g} mm, "
         f"roll {1e3 * pose.roll:g} mrad, yaw {1e3 * pose.yaw:g} mrad, {case.speed:g} m/s"
-    )
-
-
-def _named(touches: Sequence[Touch]) -> tuple[list[Any], list[str]]:
-    return [touch.solution for touch in touches], [touch.name for touch in touches]
-
-
-def _deliver(
-    touches: Sequence[Touch],
-    title: str,
-    radius: float,
-    as_json: bool,
-    out: Sequence[Path] | None,
-    picture: Callable[[Any], Any],
-) -> None:
-    """Print solved patches and write them to files. `picture` draws them with `contact.plot`; without contact there is none."""
-    patches = [report.data(touch, radius) for touch in touches]
-    if not touches and out:
-        typer.echo("no contact: no picture and no table is written", err=True)
-        out = [path for path in out if path.suffix.lower() == ".json"]
-
-    def show(console: Console) -> None:
-        report.show(touches, title, radius, console)
-
-    deliver(
-        {"patches": patches},
-        show=show,
-        as_json=as_json,
-        out=out,
-        rows=lambda: [flat(row) for row in patches],
-        figure=lambda: picture(drawing()),
     )

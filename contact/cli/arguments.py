@@ -2,27 +2,31 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
+from typing import Any, cast
 
 import typer
 
 from contact.cli import options as opt
+from contact.cli import output
 from contact.cli.document import in_effect
 from contact.cli.problem import OF_A_POSITION, Pose, Position
 from contact.errors import ContactError, warn
 from contact.friction import Friction, as_friction
 from contact.geometry import profile
+from contact.geometry.wheelset import Pair
 from contact.halfspace.third_body import ThirdBody
 from contact.inputs.creepage import Creepage
 from contact.inputs.material import STEEL, Material
 from contact.inputs.options import FLANGE_BACK, GAUGE, RADIUS, ROOM_TEMPERATURE
+from contact.registry import DEFAULT_NORMAL, DEFAULT_TANGENTIAL
 
 
 @dataclass
-class Reading:
-    """How profiles are read: the arguments of `contact.geometry.profile.load`, with the prefix `profile`."""
+class ProfileFile:
+    """How a profile's file is read: arguments of `contact.geometry.profile.load`, with the prefix `profile`."""
 
-    inclination: opt.Inclination = None
     profile_unit: opt.Unit = None
     profile_side: opt.Drawn = None
     profile_zero: opt.Zero = None
@@ -33,15 +37,24 @@ class Reading:
     profile_repair: opt.Repair = False
     profile_smoothing: opt.Smoothing = None
     profile_wavelength: opt.Wavelength = None
+
+    @property
+    def given(self) -> dict[str, Any]:
+        """The arguments by the library's names."""
+        return {key.removeprefix("profile_"): value for key, value in vars(self).items() if key.startswith("profile_")}
+
+
+@dataclass
+class Reading(ProfileFile):
+    """How the profiles of a wheel and a rail are read, and how they lie."""
+
+    inclination: opt.Inclination = None
     profile_rotation: opt.Rotation = (0.0, 0.0)
 
     def load(self, name: str, kind: profile.Kind) -> profile.Profile:
         """Return the profile with this name or in this file."""
-        options = {
-            key.removeprefix("profile_"): value for key, value in vars(self).items() if key.startswith("profile_")
-        }
-        options["rotation"] = self.profile_rotation[0 if kind == "wheel" else 1]
-        found = profile.load(name, kind, inclination=self.inclination, **options)
+        rotation = self.profile_rotation[0 if kind == "wheel" else 1]
+        found = profile.load(name, kind, inclination=self.inclination, **self.given | {"rotation": rotation})
         if kind == "rail":
             in_effect(inclination=profile.default_inclination(name))
         return found
@@ -79,14 +92,30 @@ class SlidingFriction:
 
 
 @dataclass
-class PlaceOptions:
-    """A wheelset on its rails."""
+class Wheels:
+    """Wheels on rails."""
 
     wheel: opt.WheelName = "s1002"
     rail: opt.RailName = "60e1"
     radius: opt.Radius = RADIUS.usual
     gauge: opt.Gauge = GAUGE.usual
     back_to_back: opt.BackToBack = FLANGE_BACK.usual
+
+    @property
+    def lengths(self) -> dict[str, Any]:
+        """The lengths, by the names of `contact.geometry.wheelset.Pair`."""
+        return {"nominal_radius": self.radius, "gauge": self.gauge, "flange_back": self.back_to_back}
+
+    def pair(self, reading: Reading, side: str) -> Pair:
+        """Return the wheel of a side on its rail."""
+        wheel, rail = reading.load(self.wheel, "wheel"), reading.load(self.rail, "rail")
+        return Pair(wheel, rail, side=cast(Any, side), **self.lengths)
+
+
+@dataclass
+class PlaceOptions(Wheels):
+    """A wheelset on its rails."""
+
     y: opt.Y = 0.0
     roll: opt.Roll = 0.0
     yaw: opt.Yaw = 0.0
@@ -120,6 +149,35 @@ class Amount:
     def given(self) -> Creepage | None:
         """The creepage of the options, instead of that of the rolling wheelset."""
         return None if self.creepage is None else Creepage(*self.creepage)
+
+
+@dataclass
+class Methods:
+    """The methods that solve a contact."""
+
+    normal: opt.Normal = DEFAULT_NORMAL
+    tangential: opt.Tangential = DEFAULT_TANGENTIAL
+
+
+@dataclass
+class Output:
+    """Where the results go. What cannot be written is refused before the computation."""
+
+    as_json: opt.Json = False
+    out: opt.Files = None
+
+    def __post_init__(self) -> None:
+        output.prepare(self.out)
+
+    def deliver(self, content: Mapping[str, Any], **ways: Any) -> None:
+        """Print the results and write them, as `contact.cli.output.deliver`."""
+        output.deliver(content, as_json=self.as_json, out=self.out, **ways)
+
+    def without_contact(self) -> None:
+        """Leave out pictures and tables, of which there are none, and say so."""
+        if self.out:
+            typer.echo("no contact: no picture and no table is written", err=True)
+            self.out = [path for path in self.out if path.suffix.lower() == ".json"]
 
 
 def require_use(context: typer.Context) -> None:

@@ -4,18 +4,14 @@ from __future__ import annotations
 
 from typing import Annotated, Any
 
-from rich.console import Console
-from rich.table import Table
-
 from contact.cli import arguments
 from contact.cli import options as opt
-from contact.cli.output import deliver, prepare, reported, require_trusted
+from contact.cli.output import reported, require_trusted
 from contact.cli.problem import load_or_standard
+from contact.cli.report import show_columns
 from contact.errors import ContactError
-from contact.inputs.options import FLANGE_BACK, GAUGE, RADIUS
-from contact.pair.curving import Curving, in_curve
-from contact.registry import DEFAULT_NORMAL, DEFAULT_TANGENTIAL
-from contact.study.table import number
+from contact.inputs.options import RADIUS
+from contact.pair.curving import in_curve
 
 CurveRadius = Annotated[float, opt.in_track("--curve-radius", help="radius of the curve in m", min=10.0)]
 Cant = Annotated[float, opt.in_track(help="height of the outer rail above the inner one in m")]
@@ -31,6 +27,18 @@ Height = Annotated[
 ]
 
 
+_SHOWN = (
+    ("Q, down", "kN", "Q", 1e-3),
+    ("Y, outwards", "kN", "Y", 1e-3),
+    ("Y/Q", "-", "Y_over_Q", 1.0),
+    ("Fx on the wheel", "kN", "Fx", 1e-3),
+    ("T-gamma", "N", "T_gamma", 1.0),
+    ("contact angle, main patch", "mrad", "contact_angle", 1e3),
+    ("peak pressure", "MPa", "max_pressure", 1e-6),
+    ("patches", "", "patches", 1),
+)
+
+
 @reported
 def curving(
     *,
@@ -39,34 +47,27 @@ def curving(
     yaw_stiffness: Stiffness = 0.0,
     lead: Lead = 0.0,
     height: Height = None,
-    wheel: opt.WheelName = "s1002",
-    rail: opt.RailName = "60e1",
-    radius: opt.Radius = RADIUS.usual,
-    gauge: opt.Gauge = GAUGE.usual,
-    back_to_back: opt.BackToBack = FLANGE_BACK.usual,
+    wheels: arguments.Wheels,
     speed: opt.Speed = 20.0,
     reading: arguments.Reading,
     load: opt.Load = None,
     surface: arguments.SlidingFriction,
-    normal: opt.Normal = DEFAULT_NORMAL,
-    tangential: opt.Tangential = DEFAULT_TANGENTIAL,
-    as_json: opt.Json = False,
-    out: opt.Files = None,
+    methods: arguments.Methods,
+    output: arguments.Output,
 ) -> None:
     """Find the steady motion of a wheelset in a curve to the right: position, angle of attack, forces, wear numbers.
 
     --load is that of each wheel on level track. Example:  contact curving --curve-radius 300 --speed 15 --cant 0.1
     --yaw-stiffness 10e6 --lead 1.28
     """
-    if radius > RADIUS.most:
+    if wheels.radius > RADIUS.most:
         raise ContactError(
-            f"--radius {radius:g} is outside the allowed range [{RADIUS.least:g}, {RADIUS.most:g}]: the wheel has it; the "
-            "curve's is --curve-radius"
+            f"--radius {wheels.radius:g} is outside the allowed range [{RADIUS.least:g}, {RADIUS.most:g}]: the wheel has it; "
+            "the curve's is --curve-radius"
         )
-    prepare(out)
     found = in_curve(
-        reading.load(wheel, "wheel"),
-        reading.load(rail, "rail"),
+        reading.load(wheels.wheel, "wheel"),
+        reading.load(wheels.rail, "rail"),
         curve_radius,
         load=load_or_standard(load),
         speed=speed,
@@ -75,21 +76,20 @@ def curving(
         lead=lead,
         height=height,
         friction=surface.law(),
-        nominal_radius=radius,
-        gauge=gauge,
-        flange_back=back_to_back,
-        normal=normal,
-        tangential=tangential,
+        **wheels.lengths,
+        **vars(methods),
     )
-    wheels = [_wheel(name, getattr(found, name)) for name in ("outer", "inner")]
+    rows = [_wheel(name, getattr(found, name)) for name in ("outer", "inner")]
     names = ("y", "yaw", "roll", "z", "spin", "lateral", "steering", "guiding")
     axle = {name: getattr(found, name) for name in names}
-    deliver(
-        {"wheelset": axle, "wheels": wheels},
-        show=lambda console: _show(found, wheels, console),
-        as_json=as_json,
-        out=out,
-        rows=lambda: [{**axle, **row} for row in wheels],
+    title = (
+        f"A wheelset in a curve: {1e3 * abs(found.y):.3g} mm to the {'outside' if found.y < 0.0 else 'inside'}, "
+        f"yaw {1e3 * found.yaw:.3g} mrad, ΣY {1e-3 * found.guiding:.3g} kN"
+    )
+    output.deliver(
+        {"wheelset": axle, "wheels": rows},
+        show=lambda console: show_columns(title, "wheel", rows, _SHOWN, console),
+        rows=lambda: [{**axle, **row} for row in rows],
     )
     require_trusted([found.outer.status, found.inner.status], "wheels")
 
@@ -109,26 +109,3 @@ def _wheel(name: str, s: Any) -> dict[str, Any]:
         "patches": len(s.contacts),
         "status": s.status.name,
     }
-
-
-def _show(found: Curving, wheels: list[dict[str, Any]], console: Console) -> None:
-    title = (
-        f"A wheelset in a curve: {1e3 * abs(found.y):.3g} mm to the {'outside' if found.y < 0.0 else 'inside'}, "
-        f"yaw {1e3 * found.yaw:.3g} mrad, ΣY {1e-3 * found.guiding:.3g} kN"
-    )
-    table = Table(title=title, title_justify="left", title_style="bold", header_style="bold")
-    for heading in ("quantity", "unit", *(row["wheel"] for row in wheels)):
-        table.add_column(heading)
-    for label, unit, key, factor in (
-        ("Q, down", "kN", "Q", 1e-3),
-        ("Y, outwards", "kN", "Y", 1e-3),
-        ("Y/Q", "-", "Y_over_Q", 1.0),
-        ("Fx on the wheel", "kN", "Fx", 1e-3),
-        ("T-gamma", "N", "T_gamma", 1.0),
-        ("contact angle, main patch", "mrad", "contact_angle", 1e3),
-        ("peak pressure", "MPa", "max_pressure", 1e-6),
-    ):
-        table.add_row(label, unit, *(number(factor * row[key]) for row in wheels))
-    table.add_row("patches", "", *(str(row["patches"]) for row in wheels))
-    table.add_row("status", "", *(row["status"].lower().replace("_", " ") for row in wheels))
-    console.print(table)

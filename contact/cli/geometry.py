@@ -15,11 +15,10 @@ from rich.table import Table
 from contact.arrays import Array
 from contact.cli import arguments
 from contact.cli import options as opt
-from contact.cli.output import deliver, drawing, prepare, reported
+from contact.cli.output import deliver, drawing, reported
 from contact.geometry import conicity as conicity_of
 from contact.geometry import contact_points, equivalent_conicity, nonlinearity, profile, steering
 from contact.geometry.wheelset import TAPE_FROM_FLANGE_BACK
-from contact.inputs.options import FLANGE_BACK, GAUGE, RADIUS
 
 _SHOWN = 21  # lines of a printed table of contact points; files contain all lines
 _CURVE = 121  # amplitudes of a drawn curve
@@ -39,30 +38,23 @@ _POINTS: Sequence[tuple[str, str, float]] = (
 
 
 @dataclass
-class WheelsetOptions:
+class WheelsetOptions(arguments.Wheels):
     """Both wheels on both rails."""
 
-    wheel: opt.WheelName = "s1002"
-    rail: opt.RailName = "60e1"
     left_wheel: opt.LeftWheel = None
     left_rail: opt.LeftRail = None
-    radius: opt.Radius = RADIUS.usual
     left_radius: opt.LeftRadius = None
-    gauge: opt.Gauge = GAUGE.usual
-    back_to_back: opt.BackToBack = FLANGE_BACK.usual
     roll: opt.Rolls = False
 
-    def pair(self, reading: arguments.Reading) -> dict[str, Any]:
+    def both(self, reading: arguments.Reading) -> dict[str, Any]:
         """Return the arguments of `contact_points` and `conicity`."""
         return {
             "wheel": reading.load(self.wheel, "wheel"),
             "rail": reading.load(self.rail, "rail"),
             "left_wheel": self.left_wheel and reading.load(self.left_wheel, "wheel"),
             "left_rail": self.left_rail and reading.load(self.left_rail, "rail"),
-            "nominal_radius": self.radius,
             "left_radius": self.left_radius,
-            "gauge": self.gauge,
-            "flange_back": self.back_to_back,
+            **self.lengths,
             "roll": self.roll,
         }
 
@@ -74,23 +66,19 @@ def geometry(
     reading: arguments.Reading,
     reach: opt.Reach = 0.01,
     step: opt.Step = 1e-4,
-    as_json: opt.Json = False,
-    out: opt.Files = None,
+    output: arguments.Output,
 ) -> None:
     """Compute contact points of rigid wheels on rails: rolling radii and contact angles over the lateral displacement.
 
     Example:  contact geometry --wheel 1/40 --rail UIC60 --inclination 1/20 --max 8e-3 --out points.png
     """
-    prepare(out)
-    pair = wheelset.pair(reading)
+    pair = wheelset.both(reading)
     n = max(1, round(reach / step))
     found = contact_points(**pair, y=np.linspace(-reach, reach, 2 * n + 1))
     columns = found.columns()
-    deliver(
+    output.deliver(
         columns,
         show=lambda console: _show_points(columns, _title(pair), console),
-        as_json=as_json,
-        out=out,
         rows=lambda: _rows(columns),
         figure=lambda: drawing().contact_points(found, pair["wheel"], pair["rail"]),
     )
@@ -103,15 +91,13 @@ def conicity(
     reading: arguments.Reading,
     amplitude: opt.Amplitudes = None,
     curve_radius: opt.CurveRadius = None,
-    as_json: opt.Json = False,
-    out: opt.Files = None,
+    output: arguments.Output,
 ) -> None:
     """Compute the equivalent conicity over the amplitude by EN 15302, Klingel's wavelength, and steering in curves.
 
     Example:  contact conicity --wheel s1002 --rail 60e2 --gauge 1.432 --out conicity.png
     """
-    prepare(out)
-    pair = wheelset.pair(reading)
+    pair = wheelset.both(reading)
     found = conicity_of(**pair, amplitudes=amplitude or None)
     base = wheelset.back_to_back + 2.0 * TAPE_FROM_FLANGE_BACK
     wave = found.wavelength(base, wheelset.radius)
@@ -140,7 +126,7 @@ def conicity(
         return drawing().conicity(curve, found, _title(pair))
 
     more = {"nonlinearity": bent, "steering": vars(turned)}
-    deliver(columns | more, show=show, as_json=as_json, out=out, rows=lambda: _rows(columns), figure=figure)
+    output.deliver(columns | more, show=show, rows=lambda: _rows(columns), figure=figure)
 
 
 @reported

@@ -4,22 +4,20 @@ from __future__ import annotations
 
 import math
 from pathlib import Path
-from typing import Annotated, Any, cast
+from typing import Annotated
 
 import numpy as np
 import typer
 
 from contact.cli import arguments
 from contact.cli import options as opt
-from contact.cli.output import deliver, drawing, prepare, reported, require_trusted
+from contact.cli.output import drawing, reported, require_trusted
 from contact.cli.problem import carried
 from contact.cli.report import show_curve
 from contact.errors import ContactError
-from contact.geometry.wheelset import Pair
 from contact.pair import ContactDamping, ElasticRail, FrictionMemory, WheelRailPair
 from contact.pair.motion import AMOUNTS, LOAD
 from contact.reading.columns import table
-from contact.registry import DEFAULT_NORMAL, DEFAULT_TANGENTIAL
 
 _SHOWN = 25  # lines of the printed table
 File = Annotated[
@@ -54,10 +52,8 @@ def in_time(
     damping: Damping = None,
     springs: opt.Springs = (math.inf, math.inf),
     preload: opt.Preload = (0.0, 0.0),
-    normal: opt.Normal = DEFAULT_NORMAL,
-    tangential: opt.Tangential = DEFAULT_TANGENTIAL,
-    as_json: opt.Json = False,
-    out: opt.Files = None,
+    methods: arguments.Methods,
+    output: arguments.Output,
 ) -> None:
     """Solve a wheel on a rail for each line of a file: time, and any inputs of the FMU WheelRailPair by their names.
 
@@ -66,7 +62,6 @@ def in_time(
 
     Example:  contact in-time motion.csv --falling exponential 0.15 0.5 --friction-memory 0.1 0.02 --out forces.png
     """
-    prepare(out)
     if side is opt.SideOption.both:
         raise ContactError("side = 'both': a motion is that of one wheel")
     columns = _read(motion)
@@ -80,15 +75,7 @@ def in_time(
     if not heights:
         given |= carried(load, vertical)
     law = surface.law()
-    pair = Pair(
-        reading.load(place.wheel, "wheel"),
-        reading.load(place.rail, "rail"),
-        side=cast(Any, side.value),
-        nominal_radius=place.radius,
-        gauge=place.gauge,
-        flange_back=place.back_to_back,
-    )
-    found = WheelRailPair(pair, normal=normal, tangential=tangential).run(
+    found = WheelRailPair(place.pair(reading, side.value), **vars(methods)).run(
         {**given, **columns},
         friction=law,
         memory=None if friction_memory is None else FrictionMemory(law, *friction_memory),
@@ -101,11 +88,9 @@ def in_time(
     shown = {f"{name} [kN]": (1e-3 * found[name][::every]).tolist() for name in ("Fx", "Q", "Y")}
     shown |= {"friction": found["friction"][::every].tolist(), "status": found["status"][::every].tolist()}
     curves = {name: 1e-3 * found[name] for name in ("Fx", "Q", "Y")}
-    deliver(
+    output.deliver(
         {"rows": rows},
         show=lambda console: show_curve(time[::every], shown, "time [s]", "forces", console),
-        as_json=as_json,
-        out=out,
         rows=lambda: rows,
         figure=lambda: drawing().curve(time, curves, xlabel="time [s]", ylabel="force [kN]"),
     )

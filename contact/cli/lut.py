@@ -19,11 +19,8 @@ from contact.cli.output import deliver, reported
 from contact.cli.problem import load_or_standard
 from contact.cli.progress import progress_bar
 from contact.errors import ContactError, PlausibilityWarning
-from contact.geometry.wheelset import Pair
-from contact.inputs.options import FLANGE_BACK, GAUGE, RADIUS
 from contact.inputs.plausibility import doubt_values
 from contact.pair import WheelRailPair
-from contact.registry import DEFAULT_NORMAL, DEFAULT_TANGENTIAL
 from contact.study import lookup
 
 in_axes = partial(typer.Option, rich_help_panel="Axes of the tables")
@@ -54,18 +51,13 @@ def lut(
     *,
     axis: Axis = None,
     table: Chosen = None,
-    wheel: opt.WheelName = "s1002",
-    rail: opt.RailName = "60e1",
-    radius: opt.Radius = RADIUS.usual,
-    gauge: opt.Gauge = GAUGE.usual,
-    back_to_back: opt.BackToBack = FLANGE_BACK.usual,
+    wheels: arguments.Wheels,
     reading: arguments.Reading,
     side: opt.Sides = opt.SideOption.right,
     load: opt.Load = None,
     speed: opt.Speed = 20.0,
     surface: arguments.SlidingFriction,
-    normal: opt.Normal = DEFAULT_NORMAL,
-    tangential: opt.Tangential = DEFAULT_TANGENTIAL,
+    methods: arguments.Methods,
     check: Checked = 500,
     threads: Threads = None,
     as_json: opt.Json = False,
@@ -78,18 +70,7 @@ def lut(
     if side is opt.SideOption.both:
         raise ContactError("--side both: a table is that of one wheel; allowed: left, right")
     axes = dict(map(_breakpoints, axis or ["y=-6e-3:6e-3:49", "yaw=-4e-3:4e-3:9"]))
-    pair = WheelRailPair(
-        Pair(
-            reading.load(wheel, "wheel"),
-            reading.load(rail, "rail"),
-            side="left" if side is opt.SideOption.left else "right",
-            nominal_radius=radius,
-            gauge=gauge,
-            flange_back=back_to_back,
-        ),
-        normal=normal,
-        tangential=tangential,
-    )
+    pair = WheelRailPair(wheels.pair(reading, side.value), **vars(methods))
     options: dict[str, Any] = {"friction": surface.law(), "threads": threads}
     options |= {} if "load" in axes else {"load": load_or_standard(load)}
     options |= {} if "speed" in axes else {"speed": speed}

@@ -9,10 +9,12 @@ from typing import Annotated, Any
 import typer
 from rich.console import Console
 
+from contact.cli import arguments
 from contact.cli import options as opt
-from contact.cli.output import deliver, drawing, in_options, prepare, reported
+from contact.cli.output import drawing, in_options, reported
 from contact.errors import ContactError
 from contact.geometry import profile
+from contact.study.files import PICTURES
 
 Given = Annotated[list[Path], typer.Argument(help="profile files or folders", show_default=False)]
 Kind = Annotated[
@@ -25,38 +27,22 @@ def check(
     files: Given,
     *,
     kind: Kind = None,
-    profile_unit: opt.Unit = None,
-    profile_side: opt.Drawn = None,
-    profile_zero: opt.Zero = None,
-    profile_scale: opt.Scale = 1.0,
-    profile_columns: opt.Columns = None,
-    profile_rows: opt.Rows = None,
-    profile_section: opt.Section = None,
-    profile_repair: opt.Repair = False,
-    profile_smoothing: opt.Smoothing = None,
-    profile_wavelength: opt.Wavelength = None,
-    as_json: opt.Json = False,
-    out: opt.Files = None,
+    reading: arguments.ProfileFile,
+    output: arguments.Output,
 ) -> None:
     """Check profile files: spikes, gaps, repeated scans, noise, offsets; each with the option that cures it.
 
     Example:  contact check measured/*.whl --out check.png
     """
-    prepare(out)
-    options = {
-        **{"kind": kind, "unit": profile_unit, "side": profile_side, "zero": profile_zero},
-        **{"scale": profile_scale, "columns": profile_columns, "rows": profile_rows, "section": profile_section},
-        **{"repair": profile_repair, "smoothing": profile_smoothing, "wavelength": profile_wavelength},
-    }
     found, unread = [], []
     for path in _files(files):
         try:
-            found.append(profile.check(path, **options))
+            found.append(profile.check(path, kind=kind, **reading.given))
         except ContactError as error:
             unread.append(str(error))
-    if out and len(found) != 1 and any(path.suffix.lower() in (".png", ".pdf", ".svg") for path in out):
+    if len(found) != 1 and any(path.suffix.lower() in PICTURES for path in output.out or []):
         raise ContactError(f"out: a picture shows one file; {len(found)} could be read")
-    rows = [
+    rows: list[dict[str, str | None]] = [
         {"file": one.name, "fault": finding.fault.value, "seen": finding.seen, "cure": finding.cure}
         for one in found
         for finding in one.findings
@@ -66,11 +52,9 @@ def check(
         for text in (*map(str, found), *unread):
             console.print(in_options(text, {}), markup=False, highlight=False, soft_wrap=True)
 
-    deliver(
+    output.deliver(
         {"files": [_plain(one) for one in found], "unread": unread},
         show=show,
-        as_json=as_json,
-        out=out,
         rows=lambda: rows or [dict.fromkeys(("file", "fault", "seen", "cure"))],
         figure=lambda: drawing().profile_check(found[0]),
     )

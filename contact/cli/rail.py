@@ -3,21 +3,29 @@
 from __future__ import annotations
 
 import math
-from typing import Any, cast
-
-from rich.console import Console
-from rich.table import Table
+from typing import Any
 
 from contact.cli import arguments
 from contact.cli import options as opt
-from contact.cli.output import deliver, prepare, reported, require_trusted
+from contact.cli.output import reported, require_trusted
 from contact.cli.problem import carried
+from contact.cli.report import show_columns
 from contact.geometry.flexible import WheelOffset
-from contact.geometry.wheelset import Pair, Velocity
+from contact.geometry.wheelset import Velocity
 from contact.pair import ElasticRail, WheelRailPair
-from contact.registry import DEFAULT_NORMAL, DEFAULT_TANGENTIAL
 from contact.results import Status
-from contact.study.table import number
+
+_SHOWN = (
+    ("lateral deflection", "mm", "deflection_y", 1e3),
+    ("vertical deflection", "mm", "deflection_z", 1e3),
+    ("Fx on the wheel", "kN", "Fx", 1e-3),
+    ("Fy on the wheel", "kN", "Fy", 1e-3),
+    ("Fz on the wheel", "kN", "Fz", 1e-3),
+    ("moment about the axle", "N m", "My", 1.0),
+    ("rotation of the wheel", "rad/s", "spin", 1.0),
+    ("wheelset z", "mm", "z", 1e3),
+    ("peak pressure", "MPa", "max_pressure", 1e-6),
+)
 
 
 @reported
@@ -35,10 +43,8 @@ def rail(
     force: opt.DriveForce = None,
     torque: opt.Torque = None,
     wheel_offset: opt.WheelOffset = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0),
-    normal: opt.Normal = DEFAULT_NORMAL,
-    tangential: opt.Tangential = DEFAULT_TANGENTIAL,
-    as_json: opt.Json = False,
-    out: opt.Files = None,
+    methods: arguments.Methods,
+    output: arguments.Output,
 ) -> None:
     """Find the forces on a wheel, the deflection of a rail on springs, and the rotation that a force or a torque needs.
 
@@ -46,20 +52,11 @@ def rail(
 
     Example:  contact rail --y 2e-3 --torque 8e3
     """
-    prepare(out)
     elastic = ElasticRail(*springs, *preload)
     case = place.position(reading, side)
     rows: list[dict[str, Any]] = []
     for name in case.sides:
-        pair = Pair(
-            case.wheel,
-            case.rail,
-            side=cast(Any, name),
-            nominal_radius=place.radius,
-            gauge=place.gauge,
-            flange_back=place.back_to_back,
-        )
-        solver = WheelRailPair(pair, normal=normal, tangential=tangential)
+        solver = WheelRailPair(place.pair(reading, name), **vars(methods))
         velocity = Velocity(forward=place.speed, spin=spin)
         options: dict[str, Any] = {"friction": surface.law(), "rail": elastic, **carried(load, vertical)}
         options["offset"] = WheelOffset(*wheel_offset) if any(wheel_offset) else None
@@ -78,25 +75,9 @@ def rail(
                 "status": s.status.name,
             }
         )
-    deliver({"sides": rows}, show=lambda console: _show(rows, console), as_json=as_json, out=out, rows=lambda: rows)
+    output.deliver(
+        {"sides": rows},
+        show=lambda console: show_columns("A wheel on a rail", "side", rows, _SHOWN, console),
+        rows=lambda: rows,
+    )
     require_trusted([Status[row["status"]] for row in rows], "wheels")
-
-
-def _show(rows: list[dict[str, Any]], console: Console) -> None:
-    table = Table(title="A wheel on a rail", title_justify="left", title_style="bold", header_style="bold")
-    for heading in ("quantity", "unit", *(row["side"] for row in rows)):
-        table.add_column(heading)
-    for label, unit, key, factor in (
-        ("lateral deflection", "mm", "deflection_y", 1e3),
-        ("vertical deflection", "mm", "deflection_z", 1e3),
-        ("Fx on the wheel", "kN", "Fx", 1e-3),
-        ("Fy on the wheel", "kN", "Fy", 1e-3),
-        ("Fz on the wheel", "kN", "Fz", 1e-3),
-        ("moment about the axle", "N m", "My", 1.0),
-        ("rotation of the wheel", "rad/s", "spin", 1.0),
-        ("wheelset z", "mm", "z", 1e3),
-        ("peak pressure", "MPa", "max_pressure", 1e-6),
-    ):
-        table.add_row(label, unit, *(number(factor * row[key]) for row in rows))
-    table.add_row("status", "", *(row["status"].lower().replace("_", " ") for row in rows))
-    console.print(table)

@@ -10,6 +10,9 @@ from rich.console import Console
 from rich.markup import escape
 from rich.table import Table
 
+from contact.cli.arguments import Output
+from contact.cli.document import flat
+from contact.cli.output import drawing
 from contact.cli.problem import Touch
 from contact.damage import Damage, evaluate
 from contact.geometry.wheelset import Patch
@@ -17,6 +20,8 @@ from contact.registry import Methods
 from contact.results import Solution
 from contact.study.table import number
 
+#: A row of a table: label, unit, name in the results, factor.
+Quantity = tuple[str, str, str, float]
 PLACE: Sequence[tuple[str, str, Callable[[Patch], float]]] = (
     ("contact angle", "°", lambda p: math.degrees(p.contact_angle)),
     ("position y", "mm", lambda p: 1e3 * p.position[1]),
@@ -59,12 +64,50 @@ LOCAL_DAMAGE: Sequence[tuple[str, str, Callable[[Damage], float]]] = (
 )
 
 
+def titled(title: str, *headings: str) -> Table:
+    """Return an empty table with a title, and columns with these headings."""
+    table = Table(title=escape(title), title_justify="left", title_style="bold", header_style="bold")
+    for heading in headings:
+        table.add_column(heading)
+    return table
+
+
+def show_columns(
+    title: str, name: str, rows: Sequence[Mapping[str, Any]], quantities: Sequence[Quantity], console: Console
+) -> None:
+    """Print rows, which `name` names, side by side: their quantities and the status."""
+    table = titled(title, "quantity", "unit", *(row[name] for row in rows))
+    for label, unit, key, factor in quantities:
+        table.add_row(label, unit, *(number(factor * row[key]) for row in rows))
+    table.add_row("status", "", *(row["status"].lower().replace("_", " ") for row in rows))
+    console.print(table)
+
+
+def deliver_patches(
+    touches: Sequence[Touch],
+    title: str,
+    radius: float,
+    output: Output,
+    figure: Callable[[], Any] | None = None,
+) -> None:
+    """Print solved patches and write them to files. Without `figure` the picture is that of the patches."""
+    patches = [data(touch, radius) for touch in touches]
+    if not touches:
+        output.without_contact()
+    output.deliver(
+        {"patches": patches},
+        show=lambda console: show(touches, title, radius, console),
+        rows=lambda: [flat(row) for row in patches],
+        figure=figure or (lambda: drawing().patch([t.solution for t in touches], [t.name for t in touches])),
+    )
+
+
 def show(touches: Sequence[Touch], title: str, wheel_radius: float, console: Console) -> None:
     """Print the patches side by side: place, contact, damage."""
     if not touches:
         console.print(f"[bold]{escape(title)}[/bold]\nno contact: all forces are zero")
         return
-    table = Table(title=escape(title), title_justify="left", title_style="bold", header_style="bold")
+    table = titled(title)
     table.add_column("quantity")
     table.add_column("unit", style="dim")
     for touch in touches:
@@ -119,7 +162,7 @@ def data(touch: Touch, wheel_radius: float) -> dict[str, Any]:
 def show_methods(methods: Methods, console: Console) -> None:
     """Print tables of the registered methods."""
     for kind, known in methods._asdict().items():
-        table = Table(title=f"{kind} methods", title_justify="left", title_style="bold", header_style="bold")
+        table = titled(f"{kind} methods")
         table.add_column("name", no_wrap=True)
         for heading in ("method", "source", "can do"):
             table.add_column(heading)
@@ -132,7 +175,7 @@ def show_curve(
     values: Iterable[float], relative: Mapping[str, Sequence[float]], axis: str, force: str, console: Console
 ) -> None:
     """Print creep curves, one column for each method."""
-    table = Table(title=escape(f"{force} over {axis}"), title_justify="left", title_style="bold", header_style="bold")
+    table = titled(f"{force} over {axis}")
     for heading in (axis, *relative):
         table.add_column(escape(heading), justify="right")
     for k, value in enumerate(values):

@@ -8,15 +8,14 @@ from typing import Any
 import numpy as np
 import typer
 from rich.console import Console
-from rich.table import Table
 
 from contact.cli import arguments, problem
 from contact.cli import options as opt
 from contact.cli.document import flat
-from contact.cli.output import deliver, drawing, prepare, reported
+from contact.cli.output import drawing, reported
 from contact.cli.problem import Touch
+from contact.cli.report import titled
 from contact.errors import require_number
-from contact.registry import DEFAULT_NORMAL, DEFAULT_TANGENTIAL
 from contact.stress import Endurance, SurfaceLoad, dang_van, largest
 from contact.stress.field import CRITERIA, require_criterion
 from contact.study.table import number
@@ -35,24 +34,21 @@ def stress(
     amount: arguments.Amount,
     curvatures: opt.Curvatures = None,
     surface: arguments.SlidingFriction,
-    normal: opt.Normal = DEFAULT_NORMAL,
-    tangential: opt.Tangential = DEFAULT_TANGENTIAL,
+    methods: arguments.Methods,
     body: opt.Body = "rail",
     criterion: opt.Criterion = "von_mises",
     slope: opt.DangVanSlope = 1.0 / 3.0,
     endurance: opt.EnduranceLine = None,
-    as_json: opt.Json = False,
-    out: opt.Files = None,
+    output: arguments.Output,
 ) -> None:
     """Compute the largest stresses below the contact of a wheel on a rail, or of two curvatures, and their depth.
 
     Examples:  contact stress --y 3e-3 --out stress.png   ·   contact stress --curvatures 1.1 0.8 --creepage 2e-3 0 0
     """
-    prepare(out)
     require_criterion(criterion)
     require_number("slope", slope, 0.0, 3.0)
     line = None if endurance is None else Endurance(*endurance)
-    options = {"friction": surface.law(), "normal": normal, "tangential": tangential}
+    options = {"friction": surface.law(), **vars(methods)}
     arguments.require_use(context)
     if curvatures is not None:
         options["speed"] = place.speed
@@ -62,19 +58,16 @@ def stress(
         touches = problem.solve_position(case, amount.load, amount.penetration, amount.given, options)
     touches = [touch for touch in touches if touch.solution.N > 0.0]
     found = [stresses(touch, body, slope, line) for touch in touches]
-    if not touches and out:
-        typer.echo("no contact: no picture and no table is written", err=True)
-        out = [path for path in out if path.suffix.lower() == ".json"]
+    if not touches:
+        output.without_contact()
 
     def figure() -> Any:
         worst = max(touches, key=lambda touch: largest(touch.solution, criterion, body=body).value)
         return drawing().stress(worst.solution, criterion, body=body, title=f"{body}, {worst.name}")
 
-    deliver(
+    output.deliver(
         {"patches": found},
         show=lambda console: _show(touches, found, body, console),
-        as_json=as_json,
-        out=out,
         rows=lambda: [flat(row) for row in found],
         figure=figure,
     )
@@ -99,10 +92,7 @@ def _show(touches: Sequence[Touch], found: Sequence[dict[str, Any]], body: str, 
     if not touches:
         console.print("no contact: no stress")
         return
-    title = f"Largest stresses in the {body}"
-    table = Table(title=title, title_justify="left", title_style="bold", header_style="bold")
-    for heading in ("quantity", "unit"):
-        table.add_column(heading)
+    table = titled(f"Largest stresses in the {body}", "quantity", "unit")
     for touch in touches:
         table.add_column(touch.name, justify="right")
     for name in (*CRITERIA, "dang_van"):

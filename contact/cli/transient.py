@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from typing import Any
 
+from contact.cli import arguments, report
 from contact.cli import options as opt
-from contact.cli import report
-from contact.cli.output import deliver, drawing, prepare, reported
+from contact.cli.output import drawing, reported
 from contact.cli.problem import load_or_standard
 from contact.errors import ContactError, require_number
 from contact.halfspace import Transient
@@ -28,14 +28,12 @@ def transient(
     spacing: opt.Spacing = 0.5e-3,
     distance: opt.Rolled = 0.02,
     step: opt.RollingStep = None,
-    as_json: opt.Json = False,
-    out: opt.Files = None,
+    output: arguments.Output,
 ) -> None:
     """Shift a contact, then roll it step by step on the half space: forces over the distance.
 
     Example:  contact transient --shift -5e-6 0 0 --creepage 1e-3 0 0 --distance 0.03 --out transient.png
     """
-    prepare(out)
     length = require_number("step", spacing if step is None else step, 0.0, open_minimum=True)
     count = require_number("distance", distance, 0.0) / length
     if count > _MOST:
@@ -66,13 +64,11 @@ def transient(
     every = max(1, -(-len(rows) // _SHOWN))
     shown = {name: values[::every] for name, values in curves.items()}
     axes = {"xlabel": "distance rolled [m]", "ylabel": "force on the wheel over N [-]"}
-    deliver(
+    output.deliver(
         {"rows": rows},
         show=lambda console: report.show_curve(
             at[::every], shown, "distance rolled [m]", "force on the wheel/N", console
         ),
-        as_json=as_json,
-        out=out,
         rows=lambda: rows,
         figure=lambda: drawing().curve(at, curves, limit=friction, **axes),
     )
