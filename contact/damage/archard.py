@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import astuple, dataclass
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -51,17 +51,7 @@ class ArchardMap:
 
     def constants(self) -> NDArray[np.float64]:
         """Return the constants as the array for `wear_coefficient_kernel`."""
-        return np.array(
-            [
-                self.mild,
-                self.severe,
-                self.mild_fast,
-                self.seizure,
-                self.severe_from,
-                self.severe_to,
-                self.seizure_ratio,
-            ]
-        )
+        return np.array(astuple(self))
 
 
 def wear_coefficient(

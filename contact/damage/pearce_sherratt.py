@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import astuple, dataclass
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -55,17 +55,7 @@ class PearceSherratt:
         """Return the constants as the array for `pearce_sherratt_kernel`."""
         severe_from = self.severe_limit if self.jump else self.mild_limit
         floor = 0.0 if self.jump else self.plateau
-        return np.array(
-            [
-                self.mild_slope,
-                self.plateau,
-                self.severe_slope,
-                self.severe_offset,
-                self.mild_limit,
-                severe_from,
-                floor,
-            ]
-        )
+        return np.array([*astuple(self)[:5], severe_from, floor])
 
 
 def pearce_sherratt(

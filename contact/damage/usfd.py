@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import astuple, dataclass
 from typing import Literal, get_args
 
 import numpy as np
@@ -62,17 +62,7 @@ class Usfd:
             "proportional": 0.0,
             "from_zero": -self.severe_slope * self.severe_limit,
         }[self.severe_branch]
-        return np.array(
-            [
-                self.mild_slope,
-                self.mild_limit,
-                self.plateau,
-                self.severe_limit,
-                self.severe_slope,
-                intercept,
-                self.density,
-            ]
-        )
+        return np.array([*astuple(self)[:5], intercept, self.density])
 
 
 def usfd(T_gamma: ArrayLike, area: ArrayLike, parameters: Usfd | None = None) -> float | Array:

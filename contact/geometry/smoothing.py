@@ -7,6 +7,8 @@ import numpy as np
 from contact.arrays import Array
 from contact.errors import ContactError, require_number
 
+_NEEDS = "smoothing needs scipy: pip install 'wheelrail-contact[profiles]'"
+
 
 def smoothed(y: Array, z: Array, tolerance: float) -> tuple[Array, Array, Array]:
     """Return points and tangents of the smoothest cubic spline within `tolerance` of the given points.
@@ -37,7 +39,7 @@ def smoothed(y: Array, z: Array, tolerance: float) -> tuple[Array, Array, Array]
     try:
         from scipy.interpolate import splev, splprep
     except ImportError:
-        raise ImportError("smoothing needs scipy: pip install 'wheelrail-contact[profiles]'") from None
+        raise ImportError(_NEEDS) from None
     u = _chords(y, z)
     try:
         spline, _ = splprep([y, z], u=u, s=y.size * tolerance**2, k=3)
@@ -73,18 +75,9 @@ def filtered(y: Array, z: Array, wavelength: float) -> tuple[Array, Array, Array
         If scipy is not installed.
     """
     require_number("wavelength", wavelength, 1e-4, 0.05)
-    if y.size < 5:
-        raise ContactError(f"wavelength = {wavelength:g}: {y.size} points are too few to smooth; at least 5 are needed")
-    try:
-        from scipy.interpolate import make_smoothing_spline
-    except ImportError:
-        raise ImportError("smoothing needs scipy: pip install 'wheelrail-contact[profiles]'") from None
+    _require_several(f"wavelength = {wavelength:g}", y)
     s = _chords(y, z)
-    # In units of the wavelength, because the solver of scipy looks at absolute numbers.
-    u, weights = s / wavelength, np.gradient(s) / wavelength
-    splines = [make_smoothing_spline(u, values, weights, lam=(0.5 / np.pi) ** 4) for values in (y, z)]
-    dy, dz = (spline.derivative()(u) for spline in splines)
-    return splines[0](u), splines[1](u), np.unwrap(np.arctan2(dz, dy))
+    return _spline(y, z, s / wavelength, np.gradient(s) / wavelength, (0.5 / np.pi) ** 4)
 
 
 def penalised(y: Array, z: Array, penalty: float) -> tuple[Array, Array, Array]:
@@ -113,17 +106,24 @@ def penalised(y: Array, z: Array, penalty: float) -> tuple[Array, Array, Array]:
         If scipy is not installed.
     """
     require_number("penalty", penalty, 0.0)
+    _require_several(f"penalty = {penalty:g}", y)
+    s = _chords(y, z)
+    unit = float(s[-1]) / (y.size - 1)  # the mean spacing
+    return _spline(y, z, s / unit, None, penalty / unit**3)
+
+
+def _require_several(given: str, y: Array) -> None:
     if y.size < 5:
-        raise ContactError(f"penalty = {penalty:g}: {y.size} points are too few to smooth; at least 5 are needed")
+        raise ContactError(f"{given}: {y.size} points are too few to smooth; at least 5 are needed")
+
+
+def _spline(y: Array, z: Array, u: Array, weights: Array | None, penalty: float) -> tuple[Array, Array, Array]:
+    """Return points and tangents of the smoothing spline over `u`, lengths near 1: scipy looks at absolute numbers."""
     try:
         from scipy.interpolate import make_smoothing_spline
     except ImportError:
-        raise ImportError("smoothing needs scipy: pip install 'wheelrail-contact[profiles]'") from None
-    s = _chords(y, z)
-    # In units of the mean spacing, because the solver of scipy looks at absolute numbers.
-    unit = float(s[-1]) / (y.size - 1)
-    u = s / unit
-    splines = [make_smoothing_spline(u, values, lam=penalty / unit**3) for values in (y, z)]
+        raise ImportError(_NEEDS) from None
+    splines = [make_smoothing_spline(u, values, weights, lam=penalty) for values in (y, z)]
     dy, dz = (spline.derivative()(u) for spline in splines)
     return splines[0](u), splines[1](u), np.unwrap(np.arctan2(dz, dy))
 

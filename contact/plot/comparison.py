@@ -13,7 +13,7 @@ from matplotlib.figure import Figure, FigureBase
 from contact.errors import ContactError
 from contact.plot.mesh import PatchMesh
 from contact.plot.patches import Scale, arrows, heading, slip_share, window, zones
-from contact.plot.style import DPI, FAINT, colour_map, nice, style
+from contact.plot.style import FAINT, colour_map, drawn, nice
 from contact.results import Solution
 
 #: Largest side of a picture [inch]; programs cannot show larger ones.
@@ -65,8 +65,7 @@ def comparison(
     heights = [2.0 * min(panel_width * scale.half_x / scale.half_y, panel) + _ABOVE for *_, scale in rows]
     if sum(heights) > _LARGEST:
         raise ContactError(f"{len(rows)} rows of panels are more than a picture holds; compare fewer methods or cases")
-    with style():
-        figure = Figure(figsize=(width, sum(heights)), dpi=DPI, layout="constrained")
+    with drawn(width, sum(heights)) as figure:
         parts = figure.subfigures(len(rows), 1, height_ratios=heights, squeeze=False)[:, 0]
         for part, row in zip(parts, rows, strict=True):
             _row(part, *row, columns)

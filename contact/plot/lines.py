@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from contact.arrays import as_array
 from contact.errors import ContactError
-from contact.plot.style import DPI, FAINT, looks, style
+from contact.plot.style import DPI, FAINT, drawn, looks, style
 
 INSIDE = 4  # most curves whose legend finds a place among them
 Lines = Mapping[str, ArrayLike]
@@ -107,8 +107,7 @@ def time_histories(
     abscissa = as_array("time", time)
     names = list(dict.fromkeys(name for lines in panels.values() for name in lines))
     look = looks(names)
-    with style():
-        figure = Figure(figsize=(7.4, 0.9 + 1.5 * len(panels)), dpi=DPI, layout="constrained")
+    with drawn(7.4, 0.9 + 1.5 * len(panels), title) as figure:
         axes = figure.subplots(len(panels), 1, squeeze=False, sharex=True)[:, 0]
         for ax, (label, lines) in zip(axes, panels.items(), strict=True):
             for name, values in lines.items():
@@ -128,8 +127,6 @@ def time_histories(
                 ax.legend(loc="lower right", bbox_to_anchor=(1.0, 0.96), borderaxespad=0.0, ncols=len(lines))
         axes[-1].set_xlabel(xlabel)
         figure.align_ylabels(axes)
-        if title:
-            figure.suptitle(title, x=0.01, ha="left", fontsize=10.0)
     return figure
 
 

@@ -8,7 +8,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from contact.errors import ContactError
-from contact.plot.style import DPI, INK, LINES, MM, style
+from contact.plot.style import INK, LINES, MM, drawn
 
 if TYPE_CHECKING:
     from contact.pair import PairRun
@@ -29,8 +29,7 @@ def passage(run: PairRun, title: str = "") -> Figure:
     if len(run.solutions) < 2:
         raise ContactError(f"{len(run.solutions)} station: a figure over the distance needs at least two")
     rows, at = run.patches(), MM * run["station"]
-    with style():
-        figure = Figure(figsize=(7.4, 8.4), dpi=DPI, layout="constrained")
+    with drawn(7.4, 8.4) as figure:
         height, ahead, across, force, pressure = figure.subplots(5, 1, sharex=True)
         height.plot(at, -MM * run["z"], color=INK, lw=1.2)
         height.set(ylabel="wheel rises\n[mm]", title=title)

@@ -15,7 +15,7 @@ from matplotlib.figure import Figure
 from contact.arrays import Array
 from contact.errors import ContactError
 from contact.plot.patches import Scale, patch
-from contact.plot.style import DPI, FAINT, INK, LINES, MM, style
+from contact.plot.style import FAINT, INK, LINES, MM, drawn
 from contact.results import Solution
 
 #: Notes on the profiles below their picture: letters to the inch, height of a line and of the space above [inch].
@@ -80,8 +80,7 @@ def position(wheels: Sequence[Wheel], roll: float = 0.0) -> Figure:
     )
     lines = [line for note in notes for line in textwrap.wrap(note, round(_LETTERS * width))]
     above = 0.55 * width / len(wheels) + 0.3 + (_LINE * len(lines) + _GAP if lines else 0.0)
-    with style():
-        figure = Figure(figsize=(width, height + above), dpi=DPI, layout="constrained")
+    with drawn(width, height + above) as figure:
         parts = figure.subfigures(2, 1, height_ratios=[above, height], squeeze=False)[:, 0]
         axes = parts[0].subplots(1, len(wheels), squeeze=False)[0]
         strongest = max(s.N for s in solutions)

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from matplotlib.figure import Figure
 
-from contact.plot.style import DPI, FAINT, GRID, INK, LINES, MM, style
+from contact.plot.style import FAINT, GRID, INK, LINES, MM, drawn
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -31,8 +31,7 @@ def profile_check(found: Inspection) -> Figure:
     Figure
     """
     lines = [line for told in found.told for line in _wrapped(told)] or ["nothing found"]
-    with style():
-        figure = Figure(figsize=(7.4, 6.4 + 0.17 * len(lines)), dpi=DPI, layout="constrained")
+    with drawn(7.4, 6.4 + 0.17 * len(lines)) as figure:
         top, middle, bottom = figure.subplots(3, 1, sharex=True, height_ratios=[1.4, 1.0, 1.0])
         top.plot(*(MM * found.points.T), color=FAINT, lw=0.0, marker=".", ms=2.5, label="measured points")
         if found.profile is not None:
@@ -58,8 +57,7 @@ def profile_check(found: Inspection) -> Figure:
 def profiles(*shown: Profile) -> Figure:
     """Draw outlines, tangents and curvatures of one or several profiles."""
     lines = [line for one in shown if one.note for line in _wrapped(f"{one.name or one.kind}: {one.note}")]
-    with style():
-        figure = Figure(figsize=(7.4, 6.4 + 0.17 * len(lines)), dpi=DPI, layout="constrained")
+    with drawn(7.4, 6.4 + 0.17 * len(lines)) as figure:
         axes = figure.subplots(3, 1, sharex=True, height_ratios=[1.4, 1.0, 1.0])
         for k, one in enumerate(shown):
             _draw(one, axes, LINES[k % len(LINES)], one.name or one.kind)

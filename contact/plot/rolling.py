@@ -11,7 +11,7 @@ from matplotlib.figure import Figure
 from matplotlib.patheffects import Normal, Stroke
 
 from contact.errors import ContactError
-from contact.plot.style import DPI, FAINT, INK, LINES, MM, style
+from contact.plot.style import FAINT, INK, LINES, MM, drawn
 
 if TYPE_CHECKING:
     from contact.geometry.en15302 import Conicity
@@ -43,8 +43,7 @@ def contact_points(points: ContactPoints, wheel: Profile, rail: Profile) -> Figu
         If there are fewer than two displacements.
     """
     _require_several(points)
-    with style():
-        figure = Figure(figsize=(7.4, 7.2), dpi=DPI, layout="constrained")
+    with drawn(7.4, 7.2) as figure:
         above, below = figure.subfigures(2, 1, height_ratios=[1.0, 1.1], squeeze=False)[:, 0]
         _joined(above.subplots(), points, wheel, rail)
         difference, angle = below.subplots(2, 1, sharex=True)
@@ -81,8 +80,7 @@ def conicity(curve: Conicity, marked: Conicity | None = None, title: str = "") -
         If there are fewer than two displacements.
     """
     _require_several(curve.points)
-    with style():
-        figure = Figure(figsize=(7.4, 3.4), dpi=DPI, layout="constrained")
+    with drawn(7.4, 3.4, title) as figure:
         left, right = figure.subplots(1, 2)
         left.plot(MM * curve.amplitude, curve.conicity, color=LINES[0], lw=1.6)
         if marked is not None:
@@ -110,8 +108,6 @@ def conicity(curve: Conicity, marked: Conicity | None = None, title: str = "") -
         right.set_xlabel("lateral displacement [mm]")
         for ax in (left, right):
             ax.grid(visible=True)
-        if title:
-            figure.suptitle(title, x=0.01, ha="left", fontsize=9.0)
     return figure
 
 

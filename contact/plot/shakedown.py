@@ -9,7 +9,7 @@ from matplotlib.figure import Figure
 
 from contact.damage.shakedown import ELLIPSE, LINE, shakedown_limit
 from contact.errors import ContactError
-from contact.plot.style import DPI, FAINT, INK, looks, style
+from contact.plot.style import FAINT, INK, drawn, looks
 from contact.results import Solution
 
 _WIDEST = 0.6  # least upper end of the utilisation axis
@@ -46,8 +46,7 @@ def shakedown(runs: Mapping[str, Sequence[Solution]], title: str = "") -> Figure
         raise ContactError("runs has no solution with contact")
     clouds = np.concatenate([cloud for cloud in points.values() if cloud.size])
     right, top = max(_WIDEST, 1.05 * clouds[:, 0].max()), max(5.5, 1.1 * clouds[:, 1].max())
-    with style():
-        figure = Figure(figsize=(5.6, 4.2), dpi=DPI, layout="constrained")
+    with drawn(5.6, 4.2, title) as figure:
         ax = figure.subplots()
         meeting = LINE[-1, 0]
         utilised, beyond = np.linspace(0.0, right, 400), np.linspace(1.0 / top, meeting, 200)
@@ -67,6 +66,4 @@ def shakedown(runs: Mapping[str, Sequence[Solution]], title: str = "") -> Figure
         ax.set(xlim=(0.0, right), ylim=(0.0, top))
         ax.set(xlabel="utilised friction √(Fx² + Fy²)/N [-]", ylabel="p₀/k [-]")
         ax.legend(loc="upper right")
-        if title:
-            figure.suptitle(title, x=0.01, ha="left", fontsize=10.0)
     return figure

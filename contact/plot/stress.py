@@ -8,7 +8,7 @@ from matplotlib.figure import Figure
 
 from contact.arrays import Array
 from contact.errors import ContactError
-from contact.plot.style import DPI, FAINT, INK, MM, colour_map, looks, nice, style
+from contact.plot.style import FAINT, INK, MM, colour_map, drawn, looks, nice
 from contact.results import Solution
 from contact.stress import SurfaceLoad, at, below, largest
 from contact.stress.field import CRITERIA, Peak
@@ -57,8 +57,7 @@ def stress(
     row = int(np.abs(field.y[0, :, 0] - peak.y).argmin())
     section = 1e-6 * getattr(field, criterion)[:, row]
     profile = at(surface, peak.x, peak.y, z, body=body, poisson_ratio=poisson_ratio)
-    with style():
-        figure = Figure(figsize=(8.0, 3.4), dpi=DPI, layout="constrained")
+    with drawn(8.0, 3.4, title) as figure:
         left, right = figure.subplots(1, 2, width_ratios=(1.7, 1.0))
         _section(left, MM * field.x[0, row], MM * z, section, peak, criterion)
         for name, (colour, _) in looks(CRITERIA[:4]).items():
@@ -69,8 +68,6 @@ def stress(
         right.set_title(f"at x = {MM * peak.x:.2f}, y = {MM * peak.y:.2f} mm", loc="left", fontsize=8.0)
         right.grid(visible=True)
         right.legend(loc="lower right")
-        if title:
-            figure.suptitle(title, x=0.01, ha="left", fontsize=10.0)
     return figure
 
 

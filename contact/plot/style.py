@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
-from contextlib import AbstractContextManager
+from collections.abc import Iterable, Iterator, Sequence
+from contextlib import AbstractContextManager, contextmanager
 from typing import Any, NamedTuple
 
 import matplotlib as mpl
 import numpy as np
 from matplotlib.colors import Colormap, LinearSegmentedColormap
+from matplotlib.figure import Figure
 
 from contact.registry import methods
 
@@ -41,6 +42,16 @@ _STYLE: Any = {
 def style() -> AbstractContextManager[None]:
     """Return a context manager in which new axes have the project's style. The user's settings are not changed."""
     return mpl.rc_context(_STYLE)
+
+
+@contextmanager
+def drawn(width: float, height: float, title: str = "") -> Iterator[Figure]:
+    """Context manager with a new figure in the project's style, `width` by `height` [inch]; in the end it gets its title."""
+    with style():
+        figure = Figure(figsize=(width, height), dpi=DPI, layout="constrained")
+        yield figure
+        if title:
+            figure.suptitle(title, x=0.01, ha="left", fontsize=10.0)
 
 
 class Look(NamedTuple):

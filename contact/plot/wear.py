@@ -10,9 +10,9 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from numpy.typing import ArrayLike
 
-from contact.arrays import Array, as_array
+from contact.arrays import as_array
 from contact.errors import ContactError, require_number
-from contact.plot.style import DPI, FAINT, INK, LINES, MM, looks, style
+from contact.plot.style import FAINT, INK, LINES, MM, drawn, looks
 
 if TYPE_CHECKING:
     from contact.accumulation import Histogram
@@ -50,16 +50,12 @@ def wear(histograms: Mapping[str, Histogram], title: str = "") -> Figure:
         If there is no histogram, nothing has rolled, or the histograms are over different profiles.
     """
     total = _merged(histograms)
-    edges = MM * np.interp(total.edges, total.arc, total.profile.y)
-    with style():
-        figure = Figure(figsize=(7.4, 4.6), dpi=DPI, layout="constrained")
+    with drawn(7.4, 4.6, title) as figure:
         above, below = figure.subplots(2, 1, sharex=True, height_ratios=[1.6, 1.0])
-        _stack(above, histograms, "wear", _UM * _THOUSAND / total.distance, edges)
+        _stack(above, histograms, "wear", _UM * _THOUSAND / total.distance)
         above.set_ylabel("depth [µm per km]" if total.profile.kind == "wheel" else "depth [µm per 1000 axle passes]")
         above.legend()
-        _outline(below, total.profile, INK, total.profile.name or total.profile.kind)
-        if title:
-            figure.suptitle(title, x=0.01, ha="left", fontsize=10.0)
+        _outline(below, total.profile)
     return figure
 
 
@@ -86,17 +82,13 @@ def fatigue(histograms: Mapping[str, Histogram], title: str = "") -> Figure:
         If there is no histogram, nothing has rolled, or the histograms are over different profiles.
     """
     total = _merged(histograms)
-    edges = MM * np.interp(total.edges, total.arc, total.profile.y)
-    with style():
-        figure = Figure(figsize=(7.4, 6.4), dpi=DPI, layout="constrained")
+    with drawn(7.4, 6.4, title) as figure:
         *above, below = figure.subplots(4, 1, sharex=True)
         for ax, (quantity, scale, label) in zip(above, _FATIGUE, strict=True):
-            _stack(ax, histograms, quantity, scale / total.distance, edges)
+            _stack(ax, histograms, quantity, scale / total.distance)
             ax.set_ylabel(label)
         above[0].legend()
-        _outline(below, total.profile, INK, total.profile.name or total.profile.kind)
-        if title:
-            figure.suptitle(title, x=0.01, ha="left", fontsize=10.0)
+        _outline(below, total.profile)
     return figure
 
 
@@ -123,8 +115,7 @@ def shares(profile: Profile, depths: Mapping[str, ArrayLike], title: str = "") -
     """
     if not depths:
         raise ContactError("depths is empty; at least one is needed")
-    with style():
-        figure = Figure(figsize=(7.4, 4.6), dpi=DPI, layout="constrained")
+    with drawn(7.4, 4.6, title) as figure:
         above, below = figure.subplots(2, 1, sharex=True, height_ratios=[1.6, 1.0])
         base = np.zeros(profile.y.size)
         for (name, depth), (colour, _) in zip(depths.items(), looks(depths).values(), strict=True):
@@ -138,9 +129,7 @@ def shares(profile: Profile, depths: Mapping[str, ArrayLike], title: str = "") -
         above.set_ylim(0.0)
         above.legend()
         above.grid(visible=True)
-        _outline(below, profile, INK, profile.name or profile.kind)
-        if title:
-            figure.suptitle(title, x=0.01, ha="left", fontsize=10.0)
+        _outline(below, profile)
     return figure
 
 
@@ -169,8 +158,7 @@ def worn_profile(before: Profile, after: Profile, *, magnified: float = 1.0, tit
     if before.kind != after.kind or before.y.size != after.y.size:
         raise ContactError(f"before = {before!r} and after = {after!r} do not belong point to point")
     y, z = (a + magnified * (b - a) for a, b in ((before.y, after.y), (before.z, after.z)))
-    with style():
-        figure = Figure(figsize=(7.4, 4.6), dpi=DPI, layout="constrained")
+    with drawn(7.4, 4.6, title) as figure:
         above, below = figure.subplots(2, 1, sharex=True, height_ratios=[1.2, 1.0])
         _outline(above, before, FAINT, "before")
         above.plot(
@@ -182,8 +170,6 @@ def worn_profile(before: Profile, after: Profile, *, magnified: float = 1.0, tit
         below.set(xlabel="y [mm], to the field side", ylabel="depth worn off [mm]")
         below.set_ylim(0.0)
         below.grid(visible=True)
-        if title:
-            figure.suptitle(title, x=0.01, ha="left", fontsize=10.0)
     return figure
 
 
@@ -199,8 +185,10 @@ def _merged(histograms: Mapping[str, Histogram]) -> Histogram:
     return total
 
 
-def _stack(ax: Axes, histograms: Mapping[str, Histogram], quantity: str, scale: float, edges: Array) -> None:
+def _stack(ax: Axes, histograms: Mapping[str, Histogram], quantity: str, scale: float) -> None:
     """Draw one quantity of the histograms, stacked. Areas are hatched where lines would be dashed."""
+    first = next(iter(histograms.values()))
+    edges = MM * np.interp(first.edges, first.arc, first.profile.y)
     base = np.zeros(edges.size - 1)
     for (name, histogram), (colour, dashes) in zip(histograms.items(), looks(histograms).values(), strict=True):
         top = base + scale * histogram[quantity]
@@ -221,7 +209,7 @@ def _stack(ax: Axes, histograms: Mapping[str, Histogram], quantity: str, scale: 
     ax.grid(visible=True)
 
 
-def _outline(ax: Axes, profile: Profile, colour: str, name: str) -> None:
-    ax.plot(MM * profile.y, MM * profile.z, color=colour, lw=1.4, label=name)
+def _outline(ax: Axes, profile: Profile, colour: str = INK, name: str = "") -> None:
+    ax.plot(MM * profile.y, MM * profile.z, color=colour, lw=1.4, label=name or profile.name or profile.kind)
     ax.set(xlabel="y [mm], to the field side", ylabel="z [mm], down")
     ax.invert_yaxis()

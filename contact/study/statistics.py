@@ -114,20 +114,17 @@ class Statistics(Report):
 
     def figure(self) -> Figure:
         """Return the picture of the force error that a share of the cases does not exceed, one line per method."""
-        from matplotlib.figure import Figure
-
         from contact.plot.lines import INSIDE, curve
-        from contact.plot.style import DPI, style
+        from contact.plot.style import drawn
 
         n = self.design.number.size
         share = 100.0 * (np.arange(n) + 0.5) / n
         lines = {method: 100.0 * np.sort(self.errors(method)[0]) for method in self.forces}
         top = max(float(np.percentile(line, 95.0)) for line in lines.values())
-        figure = Figure(figsize=(6.4 if len(lines) <= INSIDE else 8.4, 4.4), dpi=DPI, layout="constrained")
-        with style():
+        with drawn(6.4 if len(lines) <= INSIDE else 8.4, 4.4) as figure:
             ax = figure.subplots()
-        curve(share, lines, xlabel="share of the cases [%]", ylabel="error of the force [% of µN]", ax=ax)
-        ax.set_ylim(0.0, min(1.1 * max(top, 1e-3), _TOP))
+            curve(share, lines, xlabel="share of the cases [%]", ylabel="error of the force [% of µN]", ax=ax)
+            ax.set_ylim(0.0, min(1.1 * max(top, 1e-3), _TOP))
         return figure
 
     def csv(self) -> str:
