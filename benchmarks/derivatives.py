@@ -61,7 +61,7 @@ def made(closely: bool = False) -> WheelRailPair:
     """Return the pair, which iterates closely or with the default tolerance."""
     pair = WheelRailPair(Pair(profile.s1002(), profile.rail_60e1(inclination=1 / 40)))
     if closely:
-        pair.bench.case["tolerance"] = CLOSE
+        pair.arrays.case["tolerance"] = CLOSE
     return pair
 
 
@@ -183,6 +183,7 @@ def _spent(call: Callable[[], Any], before: Callable[[], Any]) -> float:
 def _prices_of(pair: WheelRailPair, own: contact.Solver, rng: np.random.Generator) -> list[float]:
     """Return the times of a pair at a height and under a load, and of a patch, each without and with derivatives [µs]."""
     pose, velocity, load = draw(rng)
+    assert isinstance(pair.pair, Pair)
     pair.forget()
     found = pair.solve(pose, velocity, load=load, friction=FRICTION)
     given = pair.pair.given(dataclasses.replace(pose, z=found.z), velocity)

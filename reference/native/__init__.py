@@ -7,6 +7,7 @@ import subprocess
 from collections.abc import Iterable, Mapping, Sequence
 from importlib.metadata import version
 from pathlib import Path
+from typing import Any
 from urllib.parse import unquote, urlsplit
 
 import fmpy
@@ -202,7 +203,7 @@ def path_of(resources: str) -> str:
 def roles(its: Component) -> str:
     """Return the text of roles.h for an FMU."""
     table = its.table
-    given = {**ROLES, **ATTACKED}[table.name]
+    given: dict[str, Any] = {**ROLES, **ATTACKED}[table.name]
     coarsest = given["COARSEST"]
     lines = [f"#define {role} {source.c_name(of)}" for role, of in given.items() if isinstance(of, str)]
     lines += [f'#define VARIED_NAME "{given["VARIED"]}"', f"#define TAKEN {given['TAKEN']}"]
