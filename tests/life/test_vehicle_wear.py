@@ -241,6 +241,7 @@ def test_a_worn_out_wheel_is_restored_and_the_study_goes_on(tmp_path):
     assert study.declared.reprofile
 
 
+@pytest.mark.usefixtures("undrawn")
 def test_page_and_result_have_all_wheels_and_rails(life):
     page = wear_report.page_of(life)
     assert "wheelset right" in page

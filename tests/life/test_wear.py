@@ -172,6 +172,7 @@ def test_the_example_set_is_valid():
     assert found.wheel.name == "S1002"
 
 
+@pytest.mark.usefixtures("undrawn")
 def test_command_writes_result_and_page_and_goes_on_from_its_checkpoint(plan, tmp_path, monkeypatch, life):
     xarray = pytest.importorskip("xarray")
     plan.write_text(SET.replace("1e6", "8e5"), encoding="utf-8")

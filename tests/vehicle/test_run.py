@@ -141,6 +141,7 @@ def test_histograms_hold_the_damage_of_all_wheels(whole):
             assert histogram["wear"].sum() * histogram.width == pytest.approx(histogram.volume, rel=1e-9)
 
 
+@pytest.mark.usefixtures("undrawn")
 def test_report_has_no_nan_and_names_the_limits(whole):
     text = report.page_of(whole)
     assert "Prud" in text

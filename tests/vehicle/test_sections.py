@@ -131,7 +131,7 @@ def test_sections_that_overlap_are_refused():
 
 SCENARIO = """
 name = "crossing"
-length = 4.0
+length = 3.0
 speed = 20.0
 recording = {settling = 0.2, spacing = 0.1}
 methods = {normal = "analyn", tangential = "fastrip", strips = 20, elements = 12}
@@ -172,7 +172,7 @@ def test_scenario_with_a_crossing_runs_resumes_and_says_where_damage_is_not_coun
     side, begin, end = json.loads(found.attrs["sections_without_damage"])[0]
     assert (side, begin, end) == ("right", pytest.approx(0.4), pytest.approx(2.76, abs=0.05))
     assert "given by slices: right rail, 0.40 to 2.7" in report.page_of(whole)
-    # what rolls on the slices is not counted: half of the wheels on 2.3 of 3.8 m
+    # what rolls on the slices is not counted: half of the wheels on 2.3 of 2.8 m
     assert 0.0 < whole.balance["counted"] < 0.9 * whole.balance["dissipated"]
 
 
