@@ -17,7 +17,7 @@ from llvmlite import binding as llvm
 from contact.compile import c_tables
 from contact.compile.emit import data_as_ir, refuse_the_rest
 from contact.compile.objects import only
-from contact.core import library
+from contact.core import checkout
 from contact_fmu.archive import digest
 from contact_fmu.native import kinds, systems
 
@@ -40,7 +40,7 @@ def _object(module: Any) -> bytes:
 def main() -> None:
     """Write kernels.o and data.o into the folder that the command line names."""
     kept = systems.kernels() / f"wasm32-{digest(Path(__file__))}"
-    with library.locked(kept):
+    with checkout.locked(kept):
         if not kept.is_dir():
             with tempfile.TemporaryDirectory(dir=kept.parent) as made:
                 _compile(Path(made))

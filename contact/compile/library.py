@@ -1,10 +1,10 @@
 """Build the library of all kernels: ``python -m contact.compile.library FOLDER [--added | --systems]``.
 
 It writes kernels.o for this machine, with the entries of Python and of the C interface, and where there is a linker the library
-beside it. With ``--added`` these also have the functions that other packages add (`Added`). With ``--systems`` it writes
-kernels.bc, which has them too, and what `objects` makes of it for all systems. `linking` then links that.
+beside it. With ``--added`` these also have those functions that other packages add for Python (`Added`). With ``--systems`` it
+writes kernels.bc, which has all that they add, and what `objects` makes of it for all systems. `linking` then links that.
 
-It imports all modules that have entries (`contact.core.entry`). `contact.core.library` starts it, with settings of numba.
+It imports all modules that have entries (`contact.core.entry`). `contact.core.checkout` starts it, with settings of numba.
 """
 
 from __future__ import annotations
@@ -18,7 +18,8 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 from contact.compile import emit
-from contact.core.library import NAME, get_include, registered
+from contact.core.checkout import modules, registered
+from contact.core.library import NAME, get_include
 from contact.version import __version__
 
 #: Beginning of the names of the functions that the C interface calls.
@@ -44,6 +45,8 @@ class Added(NamedTuple):
         Type of the last argument: pointers.
     file : str
         Name of the file of C that has the function; empty where nobody needs it in C or in the libraries, but in kernels.bc.
+    python : bool
+        Whether Python calls it.
     """
 
     name: str
@@ -52,14 +55,14 @@ class Added(NamedTuple):
     arguments: tuple[str, ...]
     last: Callable[[Any], Any]
     file: str = ""
+    python: bool = False
 
 
 def entries() -> Iterator[Any]:
     """Yield all entries that Python calls."""
-    from contact.core import library
     from contact.core.calls import Entry
 
-    for path, name in library.modules():
+    for path, name in modules():
         if b"\n@entry\n" not in path.read_bytes():
             continue
         module = import_module(name)
@@ -80,9 +83,9 @@ class Constants(NamedTuple):
 
 
 class Kernels:
-    """What numba makes of all entries. With `every` what other packages add is among them."""
+    """What numba makes of all entries, and of what other packages add as far as `needed` says so."""
 
-    def __init__(self, every: bool) -> None:
+    def __init__(self, needed: Callable[[Added], bool]) -> None:
         from contact.compile import c_tables
         from contact.kernels.entries import all_entries
 
@@ -90,8 +93,8 @@ class Kernels:
         self.of_c = all_entries()
         # Before machine code is switched off, since these call kernels to make their constants.
         self.added: list[Added] = []
-        for name in registered()["added"] if every else ():
-            self.added += import_module(name).added()
+        for name in registered()["added"]:
+            self.added += filter(needed, import_module(name).added())
         self.data = c_tables.data()
 
     @property
@@ -178,7 +181,8 @@ def main() -> None:
     """Build into the folder that the command line names."""
     emit.show_no_warnings()
     folder, for_systems = Path(sys.argv[1]), "--systems" in sys.argv
-    kernels = Kernels(every=for_systems or "--added" in sys.argv)
+    for_python = "--added" in sys.argv
+    kernels = Kernels(lambda one: for_systems or (for_python and one.python))
     module, names = kernels.module()
     data = emit.data_as_ir(kernels.data)
     if not for_systems:

@@ -14,7 +14,7 @@ import fmpy
 import numpy as np
 
 from contact.compile.linking import OF_WINDOWS, WITHOUT_MINGW, compiler, run
-from contact.core import library
+from contact.core import checkout
 from contact.inputs.options import N_ELEMENTS, N_STRIPS
 from contact.kernels.records import MAX_PATCHES
 from contact_fmu.catalogue import models, vehicles
@@ -169,7 +169,7 @@ def compile_once(by: Sequence[str], words: Sequence[object], sources: Path, made
     for path in sorted(sources.iterdir()):
         content.update(f"{path.name}\0".encode() + path.read_bytes())
     kept = systems.kernels() / f"of-c-{content.hexdigest()[:16]}"
-    with library.locked(kept):
+    with checkout.locked(kept):
         if not kept.is_file():
             run(*by, *words, "-o", made)
             shutil.copy(made, kept.with_suffix(".part")).rename(kept)

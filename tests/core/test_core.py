@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 
 import contact
-from contact.core import library, pack
+from contact.core import checkout, library, pack
 from contact.kernels.arrays import Samples
 from contact.kernels.cubic import slopes
 from contact.kernels.geometry.search import axle
@@ -124,19 +124,19 @@ def test_the_name_of_the_library_depends_on_kernels_alone(tmp_path, monkeypatch)
     kernel, other = tmp_path / "kernel.py", tmp_path / "other.py"
     kernel.write_text("\n@kernel\ndef f():\n    pass\n")
     other.write_text("pass\n")
-    assert library._has_kernels(kernel)
-    assert not library._has_kernels(other)
-    names = {path.name for path in library.sources()}
+    assert checkout._has_kernels(kernel)
+    assert not checkout._has_kernels(other)
+    names = {path.name for path in checkout.sources()}
     assert {"strip_halfspace.py", "zones.py", "motion.py", "emit.py"} <= names
     assert not names & {"solve.py", "errors.py", "solution.py"}
 
 
 def test_the_library_of_another_processor_has_another_name(monkeypatch):
     """Machines that share a home folder would else run instructions that one of them does not have."""
-    here = library.fingerprint.__wrapped__()
-    assert library.fingerprint.__wrapped__() == here
-    monkeypatch.setattr(library, "_processor", lambda: "another one")
-    assert library.fingerprint.__wrapped__() != here
+    here = checkout.fingerprint.__wrapped__()
+    assert checkout.fingerprint.__wrapped__() == here
+    monkeypatch.setattr(checkout, "_processor", lambda: "another one")
+    assert checkout.fingerprint.__wrapped__() != here
 
 
 def test_a_checkout_without_library_and_numba_says_what_to_install(tmp_path):
@@ -162,27 +162,27 @@ def test_a_cache_that_cannot_be_written_is_replaced_by_a_temporary_folder(tmp_pa
     file.touch()
     temporary = tmp_path / "temporary"
     temporary.mkdir()
-    monkeypatch.setattr(library.tempfile, "tempdir", str(temporary))
+    monkeypatch.setattr(checkout.tempfile, "tempdir", str(temporary))
     monkeypatch.setenv("CONTACT_CACHE_DIR", str(file / "cache"))
     with pytest.warns(UserWarning, match=rf"CONTACT_CACHE_DIR = {file}/cache cannot be written; .* {temporary}"):
-        assert library.cache_folder().parent == temporary
+        assert checkout.cache_folder().parent == temporary
     monkeypatch.delenv("CONTACT_CACHE_DIR")
     monkeypatch.setenv("XDG_CACHE_HOME", str(file))
-    monkeypatch.setattr(library.sys, "platform", "linux")
-    assert library.cache_folder().parent == temporary
+    monkeypatch.setattr(checkout.sys, "platform", "linux")
+    assert checkout.cache_folder().parent == temporary
 
     def unknown():
         raise KeyError("getpwuid(): uid not found: 4711")
 
-    monkeypatch.setattr(library.getpass, "getuser", unknown)
-    assert library.cache_folder().parent == temporary
+    monkeypatch.setattr(checkout.getpass, "getuser", unknown)
+    assert checkout.cache_folder().parent == temporary
 
 
 def test_a_cache_that_has_the_library_is_used_though_it_cannot_be_written(tmp_path, monkeypatch):
-    (tmp_path / (library.PREFIX + library.fingerprint())).mkdir()
-    monkeypatch.setattr(library, "_can_be_written", lambda folder: False)
+    (tmp_path / (checkout.PREFIX + checkout.fingerprint())).mkdir()
+    monkeypatch.setattr(checkout, "_can_be_written", lambda folder: False)
     monkeypatch.setenv("CONTACT_CACHE_DIR", str(tmp_path))
-    assert library.cache_folder() == tmp_path
+    assert checkout.cache_folder() == tmp_path
 
 
 def test_without_any_folder_for_the_library_a_message_names_the_variable(tmp_path, monkeypatch):
@@ -190,14 +190,14 @@ def test_without_any_folder_for_the_library_a_message_names_the_variable(tmp_pat
     file.touch()
     monkeypatch.setenv("CONTACT_CACHE_DIR", str(file))
     with pytest.raises(ImportError, match=rf"cannot be kept in {file} .*; set CONTACT_CACHE_DIR to a folder"):
-        library.build(file / "library")
+        checkout.build(file / "library")
 
     def nowhere():
         raise FileNotFoundError(2, "No usable temporary directory found")
 
-    monkeypatch.setattr(library.tempfile, "gettempdir", nowhere)
+    monkeypatch.setattr(checkout.tempfile, "gettempdir", nowhere)
     with pytest.raises(ImportError, match=r"No usable temporary directory found.*; set CONTACT_CACHE_DIR"):
-        library.cache_folder()
+        checkout.cache_folder()
 
 
 def test_a_library_of_another_version_is_named(monkeypatch):
@@ -213,3 +213,23 @@ def test_the_library_holds_the_constants_that_numba_computes(tmp_path):
     """Python reads the influence of strips from the library; a process with numba computes it."""
     code = "from contact.instance import workspace; print([part.tobytes().hex()[:4000] for part in workspace.strip_tables()])"
     assert run(code).stdout == run(code, CONTACT_JIT="1").stdout != ""
+
+
+def test_the_builder_compiles_a_kernel_once_for_all_its_constants():
+    """Numba alone compiles it again for each constant, and each enumeration, in a call."""
+    code = """
+from contact.compile import emit
+from contact.core import kernel
+from contact.kernels.enumerations import Height
+@kernel
+def twice(i, pair):
+    return 2 * i + pair[0]
+@kernel
+def caller(i):
+    return twice(i, (i, i)) + twice(3, (1, 2)) + twice(pair=(7, i), i=7) + twice(Height.LOAD, (i, Height.LOAD))
+emit.make_no_machine_code()
+caller.compile("(int64,)")
+print(len(twice.overloads))
+"""
+    done = run(code, **checkout.ENVIRONMENT)
+    assert done.stdout.strip() == "1", done.stderr

@@ -5,7 +5,7 @@ import subprocess
 import sys
 from pathlib import Path
 
-from contact.core.library import ENVIRONMENT
+from contact.core.checkout import ENVIRONMENT
 from contact_fmu.catalogue import models
 from contact_fmu.native import packaging
 

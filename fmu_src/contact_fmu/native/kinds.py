@@ -54,6 +54,10 @@ KINDS = {
 }
 
 
+#: Those that FMUs for hosts with Python have too.
+_PYTHON = ("contact", "pair", "open_vehicle")
+
+
 def names(kind: str) -> list[str]:
     """Return the names of a kind's functions in the library."""
     return [f"{kind}_{name}" for name in SIGNATURES]
@@ -72,7 +76,7 @@ def of_kind(kind: str, entries: dict[str, Callable[..., Any]], file: str) -> lis
 
     made: dict[str, Callable[..., Any]] = {name: entries.get(f"model_{name}") or _UNNEEDED[name] for name in SIGNATURES}
     return [
-        Added(f"{kind}_{name}", made[name], result, arguments, _given, file)
+        Added(f"{kind}_{name}", made[name], result, arguments, _given, file, kind in _PYTHON)
         for name, (result, arguments) in SIGNATURES.items()
     ]
 

@@ -15,7 +15,7 @@ from functools import cache
 from pathlib import Path
 from shutil import copy
 
-from contact.core import library
+from contact.core import checkout, library
 from ..archive import digest
 from ..python import entry
 from .kinds import KINDS, names
@@ -90,21 +90,21 @@ def folder(systems: Sequence[str] = USUAL, say: Callable[[str], None] = print) -
         return [system for system in systems if not (made / system / SYSTEMS[system]).is_file()]
 
     if missing():
-        with library.locked(made):
+        with checkout.locked(made):
             _link(compiled, made, missing(), say)
     return made
 
 
 @cache
 def of_this_machine() -> library.Loaded:
-    """Return the library of this machine with the functions of all kinds of models. A checkout builds it if necessary."""
+    """Return the library of this machine with the functions that FMUs for hosts with Python call. A checkout builds it."""
     if library.INSTALLED.is_file():
         return library.loaded()
     linked = _linked(_compiled("systems")) / library.SYSTEM / library.NAME
     return (
         library.of_library(linked)
         if linked.is_file()
-        else library.of_folder(library.build(_compiled("added"), "--added"))
+        else library.of_folder(checkout.build(_compiled("added"), "--added"))
     )
 
 
@@ -115,7 +115,7 @@ def kernels(say: Callable[[str], None] = print) -> Path:
         import ziglang  # noqa: F401 - without it the libraries could not be linked, which the user must not learn minutes later
 
         say("compiling the kernels for all systems, some minutes the first time")
-    return library.build(made, "--systems")
+    return checkout.build(made, "--systems")
 
 
 def _compiled(what: str) -> Path:
@@ -124,7 +124,7 @@ def _compiled(what: str) -> Path:
     parts = [path for path in parts if path.stem not in _WITHOUT]
     models = (_ROOT / "models").rglob("*.py")
     content = digest(*parts, *models, *(_ROOT / "explorer").glob("patch.py"))
-    return library.cache_folder() / f"{library.PREFIX}{library.fingerprint()}-{what}-{content}"
+    return checkout.cache_folder() / f"{checkout.PREFIX}{checkout.fingerprint()}-{what}-{content}"
 
 
 def _linked(compiled: Path) -> Path:

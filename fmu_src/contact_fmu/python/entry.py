@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from contact.core import library
+from contact.core import checkout, library
 from ..archive import digest
 
 #: System → name of the file, among the libraries of all systems.
@@ -29,9 +29,9 @@ def libraries() -> dict[str, bytes]:
     if all((_INSTALLED / system / name).is_file() for system, name in FILES.items()):
         made = _INSTALLED
     else:
-        name = f"{library.PREFIX}entry-{digest(_LOCATION, Path(__file__), *_HERE.iterdir())}"
-        made = library.cache_folder() / name
-        with library.locked(made):
+        name = f"{checkout.PREFIX}entry-{digest(_LOCATION, Path(__file__), *_HERE.iterdir())}"
+        made = checkout.cache_folder() / name
+        with checkout.locked(made):
             build([system for system, name in FILES.items() if not (made / system / name).is_file()], made)
     return {system: (made / system / name).read_bytes() for system, name in FILES.items()}
 

@@ -10,7 +10,8 @@ from importlib.metadata import version
 from pathlib import Path
 from typing import Any
 
-from contact.core.library import cache_folder, get_library
+from contact.core.checkout import cache_folder
+from contact.core.library import get_library
 from contact.geometry.profile import Profile
 
 FOLDER = "wheelrail-contact-vehicles"
