@@ -1,6 +1,6 @@
 """Gaussian elimination of the strips' linear system."""
 
-from contact.core import entry
+from contact.core import entry, kernel
 from contact.kernels.arrays import Matrix, Numbers
 
 
@@ -9,50 +9,71 @@ def eliminate(lu: Matrix, m: int, first: Numbers, second: Numbers) -> None:
     """Solve x·lu = first and x·lu = second for `m` unknowns in place by Gaussian elimination; `lu` becomes its factors.
 
     Row j of `lu` has what unknown j adds to all equations, as the influence matrix has it. So every loop runs along a row.
-    The influence matrix needs no pivoting. Two pivots and four rows are processed at a time, so a row is read and
-    written half as often and there are fewer loops.
+    The influence matrix needs no pivoting. Two pivots are processed at a time, and two rows, so a row is read and written half
+    as often and there are fewer loops. Loops run over slices from 0 on: of indices that begin elsewhere, and of more than two
+    rows, the compiler cannot prove that it may take several numbers at once.
     """
     for k in range(0, m - 1, 2):
-        above, below = lu[k], lu[k + 1]
-        inverse = 1.0 / above[k]
-        factor = below[k] * inverse
-        below[k] = factor
-        for j in range(k + 1, m):
+        inverse, across = 1.0 / lu[k, k], lu[k, k + 1]
+        factor = lu[k + 1, k] * inverse
+        lu[k + 1, k] = factor
+        lu[k + 1, k + 1] -= factor * across
+        next_inverse = 1.0 / lu[k + 1, k + 1]
+        above, below = lu[k, k + 2 : m], lu[k + 1, k + 2 : m]
+        for j in range(above.size):
             below[j] -= factor * above[j]
-        across, next_inverse = above[k + 1], 1.0 / below[k + 1]
         i = k + 2
-        while i + 3 < m:
-            a, b, c, d = lu[i], lu[i + 1], lu[i + 2], lu[i + 3]
-            fa, fb, fc, fd = a[k] * inverse, b[k] * inverse, c[k] * inverse, d[k] * inverse
-            ha, hb = (a[k + 1] - fa * across) * next_inverse, (b[k + 1] - fb * across) * next_inverse
-            hc, hd = (c[k + 1] - fc * across) * next_inverse, (d[k + 1] - fd * across) * next_inverse
-            a[k], b[k], c[k], d[k] = fa, fb, fc, fd
-            a[k + 1], b[k + 1], c[k + 1], d[k + 1] = ha, hb, hc, hd
-            for j in range(k + 2, m):
+        while i + 1 < m:
+            fa, fb = lu[i, k] * inverse, lu[i + 1, k] * inverse
+            ha, hb = (lu[i, k + 1] - fa * across) * next_inverse, (lu[i + 1, k + 1] - fb * across) * next_inverse
+            lu[i, k], lu[i, k + 1], lu[i + 1, k], lu[i + 1, k + 1] = fa, ha, fb, hb
+            a, b = lu[i, k + 2 : m], lu[i + 1, k + 2 : m]
+            for j in range(above.size):
                 v, w = above[j], below[j]
                 a[j] -= fa * v + ha * w
                 b[j] -= fb * v + hb * w
-                c[j] -= fc * v + hc * w
-                d[j] -= fd * v + hd * w
-            i += 4
-        for r in range(i, m):
-            row = lu[r]
-            f = row[k] * inverse
-            h = (row[k + 1] - f * across) * next_inverse
-            row[k], row[k + 1] = f, h
-            for j in range(k + 2, m):
+            i += 2
+        if i < m:
+            f = lu[i, k] * inverse
+            h = (lu[i, k + 1] - f * across) * next_inverse
+            lu[i, k], lu[i, k + 1] = f, h
+            row = lu[i, k + 2 : m]
+            for j in range(above.size):
                 row[j] -= f * above[j] + h * below[j]
-    for k in range(m):
-        row = lu[k]
-        inverse = 1.0 / row[k]
+    _substitute_forwards(lu, m, first, second)
+    _substitute_backwards(lu, m, first, second)
+
+
+@kernel
+def _substitute_forwards(lu, m, first, second):
+    """Solve x·u = first and x·u = second for the upper factor u."""
+    for k in range(0, m - 1, 2):
+        inverse, next_inverse, across = 1.0 / lu[k, k], 1.0 / lu[k + 1, k + 1], lu[k, k + 1]
         one, other = first[k] * inverse, second[k] * inverse
-        first[k], second[k] = one, other
-        for j in range(k + 1, m):
-            first[j] -= row[j] * one
-            second[j] -= row[j] * other
-    for k in range(m - 1, 0, -1):
-        row = lu[k]
-        one, other = first[k], second[k]
-        for j in range(k):
-            first[j] -= row[j] * one
-            second[j] -= row[j] * other
+        next_one = (first[k + 1] - across * one) * next_inverse
+        next_other = (second[k + 1] - across * other) * next_inverse
+        first[k], first[k + 1], second[k], second[k + 1] = one, next_one, other, next_other
+        above, below, a, b = lu[k, k + 2 : m], lu[k + 1, k + 2 : m], first[k + 2 : m], second[k + 2 : m]
+        for j in range(above.size):
+            v, w = above[j], below[j]
+            a[j] = (a[j] - v * one) - w * next_one
+            b[j] = (b[j] - v * other) - w * next_other
+    if m % 2 == 1:
+        inverse = 1.0 / lu[m - 1, m - 1]
+        first[m - 1], second[m - 1] = first[m - 1] * inverse, second[m - 1] * inverse
+
+
+@kernel
+def _substitute_backwards(lu, m, first, second):
+    """Solve x·l = first and x·l = second for the lower factor l, which has ones on its diagonal."""
+    k = m - 1
+    while k > 0:
+        one, other, across = first[k], second[k], lu[k, k - 1]
+        next_one, next_other = first[k - 1] - across * one, second[k - 1] - across * other
+        first[k - 1], second[k - 1] = next_one, next_other
+        below, above, a, b = lu[k, : k - 1], lu[k - 1, : k - 1], first[: k - 1], second[: k - 1]
+        for j in range(below.size):
+            v, w = below[j], above[j]
+            a[j] = (a[j] - v * one) - w * next_one
+            b[j] = (b[j] - v * other) - w * next_other
+        k -= 2

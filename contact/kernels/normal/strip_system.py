@@ -162,8 +162,13 @@ def solve_active(n, n_panels, space, by_load, amount):
         for r in range(m):
             i = int(vectors[Vector.INDEX, r])
             vectors[Vector.Q1, r], vectors[Vector.Q2, r] = 1.0, -vectors[Vector.GAP, i]
-            for c in range(m):
-                lu[r, c] = matrix[i, c if m == total else int(vectors[Vector.INDEX, c])]
+            to, influence = lu[r, :m], matrix[i, :total]
+            if m == total:
+                for c in range(total):
+                    to[c] = influence[c]
+            else:
+                for c in range(m):
+                    to[c] = influence[int(vectors[Vector.INDEX, c])]
         eliminate(lu, m, vectors[Vector.Q1], vectors[Vector.Q2])
         stiffness, offset = 0.0, 0.0
         for r in range(m):
