@@ -27,6 +27,7 @@ from contact.kernels.damage.deposit import arc_length
 from contact.kernels.normal import influence
 from contact.kernels.normal.between_panels import fill_probes
 from contact.kernels.normal.descent import fill_descent
+from contact.kernels.normal.factors import fill_factors
 from contact.kernels.rows import Bin
 from contact.registry import Method
 from contact.theory import force_table, kalker
@@ -79,6 +80,7 @@ def rule(n_strips: int, n_elements: int, interacting: bool) -> Rule:
         fill_descent(
             *strip_tables(), made.columns, made.descent
         )  # first, because it uses the columns as scratch memory
+        fill_factors(*strip_tables(), made.columns, made.factors)  # as does this
         influence.fill_columns(made.cosine_logs, strip_tables()[0], made.columns)
     _read_only(*made.across, *made[1:])
     return made

@@ -77,6 +77,7 @@ class Rule(NamedTuple):
     cosine_logs: Matrix
     columns: Cube
     descent: Cube
+    factors: Cube
     probes: Numbers
     spread: Matrix
 

@@ -25,6 +25,7 @@ from contact.kernels.block import cube, matrix, next_line, records, vector
 from contact.kernels.kalker import N_TABLE
 from contact.kernels.normal.between_panels import PROBES
 from contact.kernels.normal.descent import FEWEST, MOST, N_LAYERS
+from contact.kernels.normal import factors
 from contact.kernels.normal.influence import MOST_TABULATED, N_COLUMNS
 from contact.kernels.normal.start import MEM_LN_A
 from contact.kernels.records import (
@@ -113,9 +114,13 @@ def lay_rule(block: Array, end: int, size: Size) -> tuple[Rule, int]:
     columns, end = cube(block, end, N_COLUMNS if tabulated else 1, n if tabulated else 1, n if tabulated else 1)
     descending = size.interacting != 0 and FEWEST <= n <= MOST
     descent, end = cube(block, end, N_LAYERS if descending else 1, n if descending else 1, n if descending else 1)
+    factored = tabulated and n >= FEWEST
+    of_strips, end = cube(
+        block, end, factors.N_LAYERS if factored else 1, factors.N_FACTORS if factored else 1, n if factored else 1
+    )
     probes, end = vector(block, end, PROBES)
     spread, end = matrix(block, end, PROBES, n)
-    return Rule(across, elements, cosines, cosine_logs, columns, descent, probes, spread), end
+    return Rule(across, elements, cosines, cosine_logs, columns, descent, of_strips, probes, spread), end
 
 
 @shared

@@ -238,7 +238,10 @@ class Vector(IntEnum):
     OFFSET_STEPS = 39  # first of DEPTH rows, as STEPS
     OFFSET_CHANGES = 42  # first of DEPTH rows, as CHANGES
     LOCUS_OF_PANEL = 45  # x of a whole panel's load [m], as MIDDLE_OF_PANEL
-    PAIRS = 46  # first of the rows of `Pair`
+    OF_MIDDLE = 46  # factors of the displacement by the panel's own strips (`normal.factors`): at the strip's middle,
+    OF_ENDS = 47  # in the mean of its ends,
+    OF_DIFFERENCE = 48  # and of their difference
+    PAIRS = 49  # first of the rows of `Pair`
 
 
 class Pair(IntEnum):

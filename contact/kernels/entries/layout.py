@@ -9,6 +9,7 @@ from contact.kernels.kalker import N_TABLE, fill_table
 from contact.kernels.normal import influence
 from contact.kernels.normal.between_panels import fill_probes
 from contact.kernels.normal.descent import fill_descent
+from contact.kernels.normal.factors import fill_factors
 from contact.kernels.records import MAX_PATCHES
 from contact.kernels.tangential.table import SHAPE as CREEP
 
@@ -74,5 +75,6 @@ def fill(workspace, poisson_ratio, constants):
     fill_probes(rule.cosines, rule.probes, rule.spread)
     if rule.columns.size > 1:
         fill_descent(tables.centre, tables.plane, rule.columns, rule.descent)
+        fill_factors(tables.centre, tables.plane, rule.columns, rule.factors)
         influence.fill_columns(rule.cosine_logs, tables.centre, rule.columns)
     fill_table(carray(constants[0], (N_TABLE, 4, 3)), poisson_ratio, tables.kalker)

@@ -4,6 +4,7 @@ import math
 
 from contact.core import kernel
 from contact.kernels.normal.between_panels import distances
+from contact.kernels.normal.factors import set_factors
 from contact.kernels.normal.panels import half_lengths, is_between_loaded, lay_panels, place_middles
 from contact.kernels.normal.strip_system import assemble, solve_active
 from contact.kernels.rows import Vector
@@ -27,6 +28,7 @@ def find_pressures(problem, delta, n_panels):
         place_middles(workspace.space.vectors, n, n_panels, delta)
     distances(panels, n_panels, workspace)
     half_lengths(workspace.space.vectors, n, n_panels, delta)
+    set_factors(panels, n_panels, problem.skew, workspace.rule.factors, n, workspace.space.vectors)
     assemble(panels, n_panels, workspace, problem.skew > 0.0, problem.unit)
     return solve_active(n, n_panels, workspace.space, problem.by_load, problem.amount)
 

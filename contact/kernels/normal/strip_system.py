@@ -25,6 +25,7 @@ def _fill_off_line(first, n, half, workspace, unit):
     centre, plane = workspace.tables.centre, workspace.tables.plane
     tabulated = workspace.rule.columns.shape[1] == n
     loci, ln_half = vectors[Vector.XC, first : first + n], math.log(half)
+    factors = vectors[Vector.OF_MIDDLE, first : first + n]
     for k in range(n):
         a, row = vectors[Vector.A, first + k], matrix[first + k, first : first + n]
         ln_a, scale, inverse, locus = vectors[Vector.LN_LENGTH, first + k] - ln_half, a * unit, 1.0 / a, loci[k]
@@ -42,6 +43,8 @@ def _fill_off_line(first, n, half, workspace, unit):
                     row[i] += scale * (high - low if right > left else low - high)
                 else:
                     row[i] = scale * abs(high - low)
+        for i in range(n):
+            row[i] *= factors[i]
 
 
 @kernel
@@ -95,8 +98,8 @@ def _add_panel(first, n, logs, ln_unit, skewed, vectors, plane):
                 fill_ln_X(n, pairs)
             trailing = u  # end 0, once the leading one is known
             u = displacement(plane, forces, pairs, k)
-        vectors[Vector.U, i] += 0.5 * (trailing + u) if skewed else u
-        vectors[Vector.DIFFERENCE, i] += u - trailing if skewed else 0.0
+        vectors[Vector.U, i] += vectors[Vector.OF_ENDS, i] * 0.5 * (trailing + u) if skewed else u
+        vectors[Vector.DIFFERENCE, i] += vectors[Vector.OF_DIFFERENCE, i] * (u - trailing) if skewed else 0.0
 
 
 @kernel
