@@ -24,7 +24,7 @@ ELEMENTS = 60
 
 def random_case(rng: np.random.Generator) -> tuple[float, float, float, float]:
     """Return a/b and the creepages [-], [-], [1/m]."""
-    log_aspect = rng.uniform(-table.LOG_ASPECT_MAX, table.LOG_ASPECT_MAX)
+    log_aspect = rng.uniform(table.LOG_ASPECT_MIN, -table.LOG_ASPECT_MIN)  # a/b from .1 to 10
     c11, c22, c23, _ = kalker.coefficients(kalker.table(table.NU), log_aspect)
     x, y, z = rng.normal(size=3)
     unit = 10 ** rng.uniform(math.log10(0.05), math.log10(20.0)) / math.sqrt(x * x + y * y + z * z)

@@ -23,9 +23,9 @@ from contact.kernels.arrays import (
 )
 from contact.kernels.block import cube, matrix, next_line, records, vector
 from contact.kernels.kalker import N_TABLE
+from contact.kernels.normal import factors
 from contact.kernels.normal.between_panels import PROBES
 from contact.kernels.normal.descent import FEWEST, MOST, N_LAYERS
-from contact.kernels.normal import factors
 from contact.kernels.normal.influence import MOST_TABULATED, N_COLUMNS
 from contact.kernels.normal.start import MEM_LN_A
 from contact.kernels.records import (

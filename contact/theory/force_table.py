@@ -12,6 +12,7 @@ from contact.arrays import Array
 from contact.errors import ContactError
 from contact.kernels.tangential.table import (
     LOG_ASPECT_MAX,
+    LOG_ASPECT_MIN,
     N_ALPHA,
     N_ASPECT,
     N_BETA,
@@ -30,7 +31,7 @@ EFFECTIVE_FILE = Path(__file__).parents[1] / "data" / "effective_creepage.csv"
 def nodes() -> tuple[Array, Array, Array, Array]:
     """Return ln(a/b), alpha [rad], beta [rad] and rho of the table's nodes."""
     return (
-        np.linspace(-LOG_ASPECT_MAX, LOG_ASPECT_MAX, N_ASPECT),
+        np.linspace(LOG_ASPECT_MIN, LOG_ASPECT_MAX, N_ASPECT),
         np.linspace(0.0, 0.5 * math.pi, N_ALPHA),
         np.linspace(-0.5 * math.pi, 0.5 * math.pi, N_BETA),
         np.linspace(0.0, 1.0, N_RHO),

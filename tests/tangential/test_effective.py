@@ -35,7 +35,9 @@ def node(i, j, k, l):
     return math.exp(log_aspect[i]), (creepage.longitudinal, creepage.lateral, creepage.spin)
 
 
-@pytest.mark.parametrize(("i", "j", "k", "l"), [(2, 1, 8, 3), (4, 2, 3, 5), (5, 4, 2, 4), (7, 0, 9, 6), (4, 0, 12, 3)])
+@pytest.mark.parametrize(
+    ("i", "j", "k", "l"), [(2, 1, 8, 3), (4, 2, 3, 5), (5, 4, 2, 4), (7, 0, 9, 6), (9, 2, 5, 4), (4, 0, 12, 3)]
+)
 def test_at_its_nodes_the_march_has_the_half_spaces_force_and_moment(i, j, k, l):
     np.testing.assert_allclose(forces(*node(i, j, k, l)), FORCES[i, j, k, l, :3], atol=0.004)
 

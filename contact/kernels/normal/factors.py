@@ -34,7 +34,9 @@ def _by_strip(i, j, X, rows, centre, plane):
     near = math.log(abs(abs(y[j] - y[i]) - h[j]) / a)
     far = math.log((abs(y[j] - y[i]) + h[j]) / a)
     if i != j:
-        return a * (off_line(centre, plane, X, far, near) if X > 0.0 else at_centre(centre, far) - at_centre(centre, near))
+        return a * (
+            off_line(centre, plane, X, far, near) if X > 0.0 else at_centre(centre, far) - at_centre(centre, near)
+        )
     if X == 0.0:
         return a * (at_centre(centre, far) + at_centre(centre, near))
     row, share, ln_X = row_at(X, logarithm(X))
@@ -64,8 +66,8 @@ def _hertz(ratio, slope):
 def _lay_circle(n, rows):
     """Fill middles, half widths, half lengths and pressures of the strips of the unit circle in rows 0, 1, 2, 5.
 
-    Half lengths are mean chords. Pressures are those of the middles, raised away from y = 0 so that they bear the load. Those at
-    the ends are what the rule of the ends asks for.
+    Half lengths are mean chords. Pressures are those of the middles, raised away from y = 0 so that they bear the load. Those
+    at the ends are what the rule of the ends asks for.
     """
     y, h, p = rows[0], rows[1], rows[5]
     for i in range(n):

@@ -33,9 +33,10 @@ from contact.kernels.arrays import FiveD
 
 Array = NDArray[np.float64]
 NU = 0.28
-#: Number of nodes of ln(a/b) from -LOG_ASPECT_MAX on, of alpha from 0 to 90°, of beta from -90° to 90°, of rho from 0 to 1.
-N_ASPECT, N_ALPHA, N_BETA, N_RHO = 9, 6, 17, 16
-LOG_ASPECT_MAX, R0 = math.log(10.0), 1.5
+#: Number of nodes of ln(a/b) from LOG_ASPECT_MIN to LOG_ASPECT_MAX (a/b = .1 to 17.8, as flanges have slender patches), of
+#: alpha from 0 to 90°, of beta from -90° to 90°, of rho from 0 to 1.
+N_ASPECT, N_ALPHA, N_BETA, N_RHO = 10, 6, 17, 16
+LOG_ASPECT_MIN, LOG_ASPECT_MAX, R0 = -math.log(10.0), 1.25 * math.log(10.0), 1.5
 #: Shape of the array that kernels take: one more node on every side, and twice four numbers.
 SHAPE = (N_ASPECT + 2, N_ALPHA + 2, N_BETA + 2, N_RHO + 2, 8)
 
@@ -97,7 +98,7 @@ def interpolated(log_aspect, X, Y, spin, first, table):
     """
     plane = math.sqrt(X * X + Y * Y)
     r = math.sqrt(plane * plane + spin * spin)
-    share = min(max((log_aspect + LOG_ASPECT_MAX) / (2.0 * LOG_ASPECT_MAX), 0.0), 1.0)
+    share = min(max((log_aspect - LOG_ASPECT_MIN) / (LOG_ASPECT_MAX - LOG_ASPECT_MIN), 0.0), 1.0)
     i, of_aspect = _cell(share * (N_ASPECT - 1), N_ASPECT)
     j, of_alpha = _cell(math.atan2(Y, X) / (0.5 * math.pi) * (N_ALPHA - 1), N_ALPHA)
     k, of_beta = _cell((math.atan2(spin, plane) / math.pi + 0.5) * (N_BETA - 1), N_BETA)
