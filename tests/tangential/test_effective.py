@@ -160,3 +160,17 @@ def test_a_lopsided_patch_has_the_half_spaces_longitudinal_force(creepage, befor
         march = contact.solve(separation, contact.Creepage(*creepage), **given)
         exact = contact.solve(separation, contact.Creepage(*creepage), **half_space, **given)
         assert abs(march.Fx - exact.Fx) < 0.75 * before * MU * 6e4
+
+
+@pytest.mark.parametrize(("spin", "before"), [(-0.6, 0.0358), (-1.2, 0.0213)])
+def test_a_skewed_lopsided_patch_has_the_half_spaces_lateral_force_under_spin(spin, before):
+    """The strips of its long side lie ahead or behind, and do not bear as much of the spin there as each by itself would."""
+    y = np.linspace(-4e-3, 4e-3, 321)
+    given = {"load": 6e4, "friction": MU}
+    half_space = {"normal": "strip_halfspace", "tangential": "halfspace", "n_strips": 64, "n_elements": 64}
+    for side in (-1.0, 1.0):
+        separation = contact.Separation(y, np.where(side * y < 0.0, 60.0, 200.0) * y**2, 0.55, 5.0 * side * y)
+        creepage = contact.Creepage(0.0, 0.0, spin * side)
+        march = contact.solve(separation, creepage, **given)
+        exact = contact.solve(separation, creepage, **half_space, **given)
+        assert abs(march.Fy - exact.Fy) < 0.8 * before * MU * 6e4

@@ -57,7 +57,7 @@ def _hertz(ratio, slope):
     short, long = 1.0 / math.sqrt(large), 1.0 / math.sqrt(small)
     K, _, B, D = elliptic_integrals(short / long)
     along, across = math.pi * short / (long * long) * D, math.pi / short * B
-    share = (across - along) / (large - small) if large - small > 1e-9 * large else 0.0
+    share = (across - along) / max(large - small, 1e-9 * large)
     A, off, other = along + share * (xx - small), share * xy, along + share * (yy - small)
     return math.pi * short * K, A, -off / A, other - off * off / A
 
@@ -110,8 +110,8 @@ def _fill_layer(ratio, slope, rows, centre, plane, layer):
         closed = approach - B * (y[i] * y[i] + h[i] * h[i] / 3.0) - A * offset * offset
         layer[0, i] = closed / middle
         layer[1, i] = (closed - A * a[i] * a[i]) / (0.5 * (leading + trailing))
-        # without shear, and at y = 0, the ends do not differ
-        layer[2, i] = -4.0 * A * a[i] * offset / (leading - trailing) if abs(offset) > 1e-9 else 1.0
+        # Without shear, and at y = 0, the ends do not differ. Compilers divide before they choose, and 0/0 would be a trap.
+        layer[2, i] = -4.0 * A * a[i] * offset / (leading - trailing + 1e-300) if abs(offset) > 1e-9 else 1.0
     for i in range((n + 1) // 2):  # makes both halves mirror images to the last bit
         for r in range(N_FACTORS):
             layer[r, i] = layer[r, n - 1 - i] = 0.5 * (layer[r, i] + layer[r, n - 1 - i])

@@ -25,25 +25,26 @@ from contact.kernels.tangential.skew import coupled
 from contact.kernels.tangential.table import Part, interpolated, signs, units
 from contact.kernels.tangential.ties import share_shape
 
-#: Longitudinal creepage by lateral creepage and by spin, and lateral by longitudinal, on a lopsided shape, fitted to patches
-#: of standard profiles; and most that counts of being lopsided (mapped_strip.md Eq. lopsided).
-_LATERAL, _SPIN, _LONGITUDINAL = 0.25, (0.48, 1.6, -3.0), 0.32
+#: What a lopsided shape has (mapped_strip.md Eq. lopsided): longitudinal creepage by lateral creepage and by spin, lateral by
+#: longitudinal, and lateral by spin if it is skewed, fitted to patches of standard profiles; most that counts of it.
+_LATERAL, _SPIN, _LONGITUDINAL, _AHEAD = 0.25, (0.48, 1.6, -3.0), 0.32, 0.9
 _MOST = 0.2
 
 
 @kernel
-def _on_lopsided(lopsided, X, Y, Z):
+def _on_lopsided(lopsided, ahead, X, Y, Z):
     """Return what a lopsided shape adds to X and Y (mapped_strip.md Eq. lopsided).
 
-    `lopsided` is the way from the centre of its load to that of its stiffness along y, over c. Strips do not displace each
-    other evenly then. On an ellipse it is 0.
+    `lopsided` is the way from the centre of its load to that of its stiffness along y, over c, `ahead` the same along x. Strips
+    do not displace each other evenly then. On an ellipse both are 0.
     """
     square = X * X + Y * Y + Z * Z
     fading = 1.0 / (1.0 + square)
     sliding = square * fading * math.sqrt(fading)
     between = square * fading * fading
     by_spin = _SPIN[0] * fading + _SPIN[1] * sliding + _SPIN[2] * between
-    return lopsided * (_LATERAL * sliding * Y + by_spin * Z), lopsided * _LONGITUDINAL * between * X
+    to_x = lopsided * (_LATERAL * sliding * Y + by_spin * Z)
+    return to_x, lopsided * _LONGITUDINAL * between * X + ahead * _AHEAD * fading * Z
 
 
 @kernel
@@ -59,13 +60,15 @@ def _changes(strips, first, last, case, centre, of_patch, tables):
     G = case.G
     a, b = mean_ellipse(strips, first, last)
     weights, x, vx, vy, phi, limit = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
-    load, moment, stiffness, moment_of_stiffness = 0.0, 0.0, 0.0, 0.0
+    load, load_y, load_x, stiffness, stiffness_y, stiffness_x = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
     for i in range(first, last):
         weight, y = strips[Strip.SHARE, i] * strips[Strip.A, i] * strips[Strip.DY, i], strips[Strip.Y, i]
         weights += weight
-        load, moment = load + weight * strips[Strip.P0, i], moment + weight * strips[Strip.P0, i] * y
+        pressed = weight * strips[Strip.P0, i]
+        load, load_y, load_x = load + pressed, load_y + pressed * y, load_x + pressed * strips[Strip.XC, i]
         stiff = weight * strips[Strip.A, i]
-        stiffness, moment_of_stiffness = stiffness + stiff, moment_of_stiffness + stiff * y
+        stiffness, stiffness_y = stiffness + stiff, stiffness_y + stiff * y
+        stiffness_x += stiff * strips[Strip.XC, i]
         limit += weight * strips[Strip.BOUND, i]
         x += weight * strips[Strip.XC, i]
         vx += weight * (strips[Strip.VX, i] - strips[Strip.PHI, i] * strips[Strip.Y, i])
@@ -87,8 +90,9 @@ def _changes(strips, first, last, case, centre, of_patch, tables):
     r = math.sqrt(X * X + Y * Y + spin * spin)
     to_spin *= sign_y * r / unit_spin
     by_turn_x, by_turn_y = coupled(of_patch[3], case.nu, r, coefficients, c, (vx, vy, phi))
-    lopsided = min(max((moment_of_stiffness / stiffness - moment / load) / c, -_MOST), _MOST)
-    by_side_x, by_side_y = _on_lopsided(lopsided, X, Y, unit_z * phi)
+    lopsided = min(max((stiffness_y / stiffness - load_y / load) / c, -_MOST), _MOST)
+    ahead = min(max((stiffness_x / stiffness - load_x / load) / c, -_MOST), _MOST)
+    by_side_x, by_side_y = _on_lopsided(lopsided, ahead, X, Y, unit_z * phi)
     return (
         (sign_x * r * to_x + by_side_x) / unit_x + to_spin * centre + by_turn_x,
         (sign_y * r * to_y + by_side_y) / unit_y - to_spin * x + by_turn_y,
