@@ -39,17 +39,20 @@ def scale_friction(case, mu):
 
 
 @kernel
-def creepage_step(case, result):
-    """Return a small step of the longitudinal and the lateral creepage [-], and of the spin [1/m]."""
-    bound = case.mu * result.N
-    if not (bound > 0.0 and result.area > 0.0):
+def creepage_step(mu, N, G, area):
+    """Return a small step of the longitudinal and the lateral creepage [-], and of the spin [1/m].
+
+    Linear theory reaches mu N at mu N/(G a b C), where C is about 4 and a b = area/π.
+    """
+    bound = mu * N
+    if not (bound > 0.0 and area > 0.0):
         return _LEAST, _LEAST_SPIN
-    step = _STEP * bound / (case.G * result.area)
-    return step, step / math.sqrt(result.area / math.pi)
+    step = _STEP * bound / (G * area)
+    return step, step / math.sqrt(area / math.pi)
 
 
 @kernel
-def move(case, j, step):
+def move_column(case, j, step):
     """Add `step` to what column j means: a creepage, the load or approach, or the friction. Return what was added."""
     if j == 0:
         before, case.vx = case.vx, case.vx + step
@@ -76,7 +79,7 @@ def roll_moved(sep, n, j, step, cases, workspace, results):
     those of the moved problem.
     """
     cases[1], results[1] = cases[0], results[0]
-    move(cases[1], j, step)
+    move_column(cases[1], j, step)
     clear_forces(results[1])
     roll_case(sep, n, cases[1], workspace, results[1])
 
@@ -89,7 +92,7 @@ def _press_closely(sep, share, cases, workspace, result):
     """
     cases[1] = cases[0]
     cases[1].tolerance = TOLERANCE
-    move(cases[1], AMOUNT, share)
+    move_column(cases[1], AMOUNT, share)
     return press_case(sep, cases[1], workspace, result)
 
 
@@ -139,13 +142,13 @@ def _subtract(result, j, step, jacobian):
 
 
 @kernel
-def _step(j, case, amount, result):
+def step_of(j, case, amount, result):
     """Return the step of column j; `amount` is that of the load or approach."""
     if j == AMOUNT:
         return amount
     if j == MU:
         return max(_STEP * case.mu, _LEAST_FRICTION)
-    creepage, spin = creepage_step(case, result)
+    creepage, spin = creepage_step(case.mu, result.N, case.G, result.area)
     return spin if j == 2 else creepage
 
 
@@ -175,14 +178,14 @@ def roll_creepages(sep, n, cases, workspace, results, jacobian):
     `subtract_creepages` makes derivatives of them.
     """
     if fits_together(n, cases[0], results[0], workspace.strips):
-        creepage, spin = creepage_step(cases[0], results[0])
+        creepage, spin = creepage_step(cases[0].mu, results[0].N, cases[0].G, results[0].area)
         roll_together(n, creepage, spin, cases[0], workspace)
         for j in range(COPIES):
             jacobian[0, j], jacobian[1, j], jacobian[2, j], jacobian[5, j] = sum_copy(n, j, workspace.strips)
             jacobian[3, j], jacobian[4, j] = results[0].N, results[0].approach
         return
     for j in range(COPIES):
-        roll_moved(sep, n, j, _step(j, cases[0], 0.0, results[0]), cases, workspace, results)
+        roll_moved(sep, n, j, step_of(j, cases[0], 0.0, results[0]), cases, workspace, results)
         _store(results[1], j, jacobian)
 
 
@@ -190,7 +193,7 @@ def roll_creepages(sep, n, cases, workspace, results, jacobian):
 def _subtract_moved(j, amount, cases, results, jacobian):
     """Make column j derivatives; `amount` is the step of the load or approach."""
     cases[1] = cases[0]
-    step = move(cases[1], j, _step(j, cases[0], amount, results[0]))
+    step = move_column(cases[1], j, step_of(j, cases[0], amount, results[0]))
     if step > 0.0:
         _subtract(results[0], j, step, jacobian)
     else:
@@ -231,7 +234,7 @@ def derive_solved(sep, n, cases, workspace, results, jacobian):
     even = is_even(cases[0]) and cases[0].mu > 0.0
     roll_creepages(sep, n, cases, workspace, results, jacobian)
     if not even:
-        roll_moved(sep, n, MU, _step(MU, cases[0], amount, results[0]), cases, workspace, results)
+        roll_moved(sep, n, MU, step_of(MU, cases[0], amount, results[0]), cases, workspace, results)
         _store(results[1], MU, jacobian)
     roll_case(sep, n, cases[0], workspace, results[0])
     for j in range(MU if even else COLUMNS):

@@ -20,7 +20,17 @@ from contact.kernels.geometry.frame import slip
 from contact.kernels.geometry.prepare import move
 from contact.kernels.geometry.section import tilted
 from contact.kernels.geometry.settle import settle
-from contact.kernels.jacobian import ITERATED, SMALL, TOLERANCE, creepage_step, has_tangent, is_even, scale_friction
+from contact.kernels.jacobian import (
+    ITERATED,
+    SMALL,
+    TOLERANCE,
+    creepage_step,
+    has_tangent,
+    is_even,
+    move_column,
+    step_of,
+)
+from contact.kernels.jacobian import MU as FRICTION
 from contact.kernels.memory import CREEPS, PAIR_ROWS
 from contact.kernels.normal.tangent import follow, loaded_strips
 from contact.kernels.pair import set_case, space_of_patch
@@ -45,7 +55,7 @@ _AT_POSE, _SAME_PATCHES, _OTHER_PATCHES, _SOLVED_BEFORE = 0, 1, 2, 3
 #: On which sides of the pose a column is a derivative (`DerivativeArrays.sides`): on both, on the side of negative steps, where
 #: patches come or go on the other one; or on none.
 BOTH_SIDES, NEGATIVE_SIDE, NO_SIDE = 0.0, -1.0, 2.0
-#: Relative steps of the coefficient of friction and of the speed.
+#: Relative step of the speed.
 _SMALL = 1e-6
 
 
@@ -112,24 +122,13 @@ def _add(total, scale, to):
 
 
 @kernel
-def _step_of(c, case, result):
+def _move(c, case, result):
     """Move creepage, friction or speed `c` of a case. Return the step."""
-    creepage, spin = creepage_step(case, result)
-    if c == 0:
-        before, case.vx = case.vx, case.vx + creepage
-        return case.vx - before
-    if c == 1:
-        before, case.vy = case.vy, case.vy + creepage
-        return case.vy - before
-    if c == 2:
-        before, case.phi = case.phi, case.phi + spin
-        return case.phi - before
-    if c == MU:
-        before = case.mu
-        scale_friction(case, before + max(_SMALL * before, 1e-12))
-        return case.mu - before
-    before, case.speed = case.speed, case.speed + max(_SMALL * case.speed, 1e-9)
-    return case.speed - before
+    if c == SPEED:
+        before, case.speed = case.speed, case.speed + max(_SMALL * case.speed, 1e-9)
+        return case.speed - before
+    column = FRICTION if c == MU else c
+    return move_column(case, column, step_of(column, case, 0.0, result))
 
 
 @kernel
@@ -152,7 +151,7 @@ def _roll_moved(k, samples, n, workspace, derivatives):
     case, result, middle = arrays.case[1], arrays.result[1], arrays.result[0]
     together = fits_together(n, case, middle, workspace.strips)
     if together:
-        creepage, spin = creepage_step(case, middle)
+        creepage, spin = creepage_step(case.mu, middle.N, case.G, middle.area)
         roll_together(n, creepage, spin, case, workspace)
     for c in range(CREEPS):
         even = is_even(case) and case.mu > 0.0
@@ -168,7 +167,7 @@ def _roll_moved(k, samples, n, workspace, derivatives):
                 derivatives.by_creep[k, c, i] -= along / case.mu
             continue
         arrays.case[1] = arrays.patch_case[0]
-        step = _step_of(c, case, middle)
+        step = _move(c, case, middle)
         clear_forces(result)
         if together and c < COPIES:
             result.Fx, result.Fy, result.Mz, result.power = sum_copy(n, c, workspace.strips)

@@ -16,6 +16,7 @@ from contact.kernels import block
 from contact.kernels.entries.layout import forget_forged
 from contact.kernels.enumerations import FrictionLaw, Height, NoAnswer
 from contact.kernels.flexible import solve_flexible
+from contact.kernels.jacobian import creepage_step
 from contact.kernels.pair_conditions import derive_pair
 from contact.kernels.pair_jacobian import NO_SIDE
 from contact.kernels.records import (
@@ -30,7 +31,6 @@ from contact.kernels.records import (
     WHEEL_OFFSET,
 )
 from contact.kernels.rows import Moved
-from ..differences import creepage_steps
 from ..tables.wheel_rail_pair import LOAD_KIND, PATCHES, SIDE
 from ..variables import Table
 from .components import Failure
@@ -41,7 +41,6 @@ _HEIGHTS = {"NormalForce": Height.LOAD, "Position": Height.GIVEN, "VerticalForce
 _HEIGHT = np.array([int(_HEIGHTS[name]) for name, _ in LOAD_KIND.items])
 _RIGHT = SIDE.number("Right")
 _DAMAGE_PARAMETERS = np.array([DamageParameters().record(contact.STEEL, 1.0, 1.0)], DAMAGE_PARAMETERS)
-_steps = arranging(creepage_steps)
 
 
 def sizer(table: Table) -> Callable[..., Any]:
@@ -174,7 +173,7 @@ def differ(table: Table) -> Callable[..., Any]:
             v[at.material_shear_modulus],
             v[at.patches_area],
         )
-        creepage = _steps(mu, N, G, area)[0]
+        creepage = creepage_step(mu, N, G, area)[0]
         if reference == at.pose_z or reference == at.irregularity_z or reference == at.offset_z:
             return 1e-8
         if at.pose_y <= reference <= at.pose_yaw or at.irregularity_y <= reference <= at.irregularity_roll:

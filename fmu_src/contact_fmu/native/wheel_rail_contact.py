@@ -27,6 +27,7 @@ from contact.kernels.jacobian import (
     MU,
     POWER,
     ROWS,
+    creepage_step,
     derive_solved,
     roll_creepages,
     subtract_creepages,
@@ -35,7 +36,6 @@ from contact.kernels.pipeline import solve_case
 from contact.kernels.records import CASE, DAMAGE, DAMAGE_PARAMETERS, MAX_PATCHES, RESULT
 from contact.kernels.rows import DamageField, Field, Strip
 from contact.kernels.separation import HERTZIAN_POINTS, fill_hertzian
-from ..differences import creepage_steps
 from ..tables.solver import SURFACE
 from ..tables.wheel_rail_contact import FLATTEST, GEOMETRY_KIND, LOAD_KIND, table
 from .component import places
@@ -44,7 +44,6 @@ from .wires import case_reader, choose, reader, size_of, writer
 _CURVATURES, _NORMAL_FORCE = GEOMETRY_KIND.number("Curvatures"), LOAD_KIND.number("NormalForce")
 _CONFORMAL = SURFACE.number("Conformal")
 _DAMAGE_PARAMETERS = np.array([DamageParameters().record(contact.STEEL, 1.0, 1.0)], DAMAGE_PARAMETERS)
-_steps = arranging(creepage_steps)
 
 
 class _OfStrip(IntEnum):
@@ -196,10 +195,8 @@ def _difference(v, at, reference):
     """
     if at.creepage_longitudinal <= reference <= at.creepage_spin:
         mu, N, G, area = v[at.friction_coefficient], v[at.force_n], v[at.material_shear_modulus], v[at.patch_area]
-        longitudinal, lateral, spin = _steps(mu, N, G, area)
-        if reference == at.creepage_spin:
-            return spin
-        return lateral if reference == at.creepage_lateral else longitudinal
+        creepage, spin = creepage_step(mu, N, G, area)
+        return spin if reference == at.creepage_spin else creepage
     stiffness = v[at.stiffness_normal]
     penetration = 1.5 * v[at.force_n] / stiffness if stiffness > 0.0 else 1e-6  # N ~ its ^3/2
     if reference == at.load_approach:
