@@ -8,12 +8,12 @@ thread. Without a folder only the table of digits is written, which a test compa
 
 from __future__ import annotations
 
-import argparse
 import math
 import time
 from collections import Counter
 from pathlib import Path
 
+from benchmarks.tables import read_options
 from contact import inp
 from contact.errors import ContactError
 from contact.inp.digits import digit_table, with_part
@@ -95,10 +95,7 @@ def row(path: Path) -> str:
 
 def main() -> None:
     """Write the tables, or print them."""
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("folder", type=Path, nargs="?")
-    parser.add_argument("--write", type=Path)
-    given = parser.parse_args()
+    given = read_options(__doc__, folder=None, write=Path)
     parts = {"digits": digit_table()}
     if given.folder is not None:
         rows = []

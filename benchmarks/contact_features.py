@@ -8,7 +8,6 @@ rail, ours on the wheel. Times are process times, the least of several runs in o
 
 from __future__ import annotations
 
-import argparse
 import math
 from collections.abc import Callable, Iterator
 from pathlib import Path
@@ -20,7 +19,7 @@ import contact
 import reference
 from benchmarks import bent_surface, feature_times, rail_reference, roller_polygon
 from benchmarks.patches_of_sets import BOTH, pair_of, parabolas
-from benchmarks.tables import summary, table
+from benchmarks.tables import read_options, summary, table
 from contact.geometry.wheelset import Pose, Velocity
 from contact.halfspace import Gap
 from contact.pair import RollerRig, WheelRailPair
@@ -231,10 +230,7 @@ A pair on strips, default methods, over a series of poses .01 mm apart:
 
 
 def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("folder", type=Path, nargs="?", help="folder of the reference sets; without it only times")
-    parser.add_argument("--write", type=Path, help="write the report also to this file")
-    arguments = parser.parse_args()
+    arguments = read_options(__doc__, folder=None, write=Path)
     folder = arguments.folder and arguments.folder.resolve()
     rows = [row for part in PARTS if folder for row in part(folder)]
     text = TEXT.format(

@@ -21,6 +21,7 @@ import numpy as np
 
 import contact
 from benchmarks.tables import read_options
+from benchmarks.timing import least
 from contact.arrays import Array
 from contact.geometry import profile
 from contact.geometry.wheelset import Pair, Pose, Velocity, contacts
@@ -169,17 +170,6 @@ def table(title: str, rows: list[dict[str, Any]]) -> None:
             )
 
 
-def _spent(call: Callable[[], Any], before: Callable[[], Any]) -> float:
-    """Return the least time of nine calls [µs]."""
-    best = np.inf
-    for _ in range(9):
-        before()
-        begun = time.perf_counter()
-        call()
-        best = min(best, time.perf_counter() - begun)
-    return 1e6 * best
-
-
 def _prices_of(pair: WheelRailPair, own: contact.Solver, rng: np.random.Generator) -> list[float]:
     """Return the times of a pair at a height and under a load, and of a patch, each without and with derivatives [µs]."""
     pose, velocity, load = draw(rng)
@@ -201,7 +191,11 @@ def _prices_of(pair: WheelRailPair, own: contact.Solver, rng: np.random.Generato
         pair.solve(pose, velocity, load=load, friction=FRICTION, derivatives=derivatives)
 
     calls = (at_height, under_load, of_patch)
-    return [_spent(partial(call, asked), pair.forget) for call in calls for asked in (False, True)]
+    return [
+        1e3 * least(partial(call, asked), 9, before=pair.forget, clock=time.perf_counter)
+        for call in calls
+        for asked in (False, True)
+    ]
 
 
 def prices(n: int, rng: np.random.Generator) -> None:

@@ -8,7 +8,6 @@ HOSTS_PYTHON, compared with what fmpy reads after one step of co-simulation.
 
 from __future__ import annotations
 
-import argparse
 import os
 import re
 import subprocess
@@ -16,6 +15,8 @@ import sys
 from pathlib import Path
 
 import fmpy
+
+from benchmarks.tables import read_options
 
 EXAMPLES = Path(__file__).parents[1] / "examples" / "hosts"
 PYTHON = os.environ.get("HOSTS_PYTHON", sys.executable)
@@ -132,10 +133,7 @@ def table(folder: Path) -> list[str]:
 
 
 def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("folder", type=Path)
-    parser.add_argument("--out", type=Path)
-    arguments = parser.parse_args()
+    arguments = read_options(__doc__, folder=Path, out=Path)
     cases = "; ".join(f"`{name}`: {wanted} at {given} = {value:g}" for name, (given, value, wanted) in CASES.items())
     head = f"""# Hosts
 

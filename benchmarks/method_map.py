@@ -1,15 +1,15 @@
 """Accuracy over time of all methods on the same wheel-rail contacts: docs/check/method_map.md and its picture.
 
-python -m benchmarks.method_map [--contacts 500] [--write docs]
+python -m benchmarks.method_map [--contacts 500] [--write docs] [--exact FILE]
 
 A contact is the most loaded patch of a random pose of S1002 on 60E1 (1:40), at its own spin and random creepages. The reference
 is the element-wise half space, which agrees with CONTACT to 6e-6 of friction times load (docs/halfspace.md). Its error falls
-with the size of the elements, so its forces are extrapolated from two grids, both finer than any that is shown.
+with the size of the elements, so its forces are extrapolated from two grids, both finer than any that is shown. `--exact`
+keeps its answers in a .npy file, or takes them from it.
 """
 
 from __future__ import annotations
 
-import argparse
 import time
 from concurrent.futures import ProcessPoolExecutor
 from pathlib import Path
@@ -18,7 +18,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 import contact
-from benchmarks.tables import table
+from benchmarks.tables import read_options, table
 from contact.arrays import Array
 from contact.geometry import profile
 from contact.geometry.wheelset import Pair, Pose
@@ -170,13 +170,7 @@ def draw(path: Path, times: Array, errors: Array, interacting: list[bool]) -> No
 
 def main() -> None:
     """Print the table, or write page and picture."""
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--contacts", type=int, default=500)
-    parser.add_argument("--write", type=Path, help="folder of the page")
-    parser.add_argument(
-        "--exact", type=Path, help="keep the reference's answers in this .npy file, or take them from it"
-    )
-    options = parser.parse_args()
+    options = read_options(__doc__, contacts=500, write=Path, exact=Path)
     given = contacts(options.contacts)
     if options.exact and options.exact.exists():
         exact = np.load(options.exact)

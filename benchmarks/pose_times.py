@@ -12,11 +12,13 @@ whole pairs, with their search.
 from __future__ import annotations
 
 import time
+from functools import partial
 
 import numpy as np
 
 import contact
 from benchmarks.tables import read_options, table
+from benchmarks.timing import least
 from contact.geometry import profile
 from contact.geometry.wheelset import Pair, Patch, Pose, Velocity
 from contact.kernels.normal.strip_halfspace import MAX_ITERATIONS
@@ -46,13 +48,9 @@ def seconds(solver: contact.Solver, patches: list[Patch], warm: bool) -> float:
     """Return the least time that the patches of a pose take together."""
     total = 0.0
     for patch in patches:
-        least = np.inf
         solver.forget()
-        for _ in range(REPEATS + warm):
-            start = time.perf_counter()
-            solver.forces(patch.separation, patch.creepage, load=patch.load, warm=warm)
-            least = min(least, time.perf_counter() - start)
-        total += least
+        call = partial(solver.forces, patch.separation, patch.creepage, load=patch.load, warm=warm)
+        total += 1e-3 * least(call, REPEATS + warm, clock=time.perf_counter)
     return total
 
 
@@ -64,13 +62,9 @@ def of_rough_gaps(count: int) -> str:
     for cap in (MAX_ITERATIONS, MAX_ITERATIONS // 2, MAX_ITERATIONS // 4):
         solver, times, missed = contact.Solver(max_iterations=cap), [], 0
         for gap in gaps:
-            least = np.inf
-            for _ in range(REPEATS):
-                start = time.perf_counter()
-                forces = solver.forces(gap, contact.Creepage(1e-3), load=80e3)
-                least = min(least, time.perf_counter() - start)
-            times.append(1e6 * least)
-            missed += forces.status == contact.Status.NOT_CONVERGED
+            call = partial(solver.forces, gap, contact.Creepage(1e-3), load=80e3)
+            times.append(1e3 * least(call, REPEATS, clock=time.perf_counter))
+            missed += call().status == contact.Status.NOT_CONVERGED
         rows.append([f"{cap}", *(f"{v:.0f}" for v in (*np.percentile(times, [50, 99]), max(times)))])
         rows[-1].append(f"{missed / len(gaps):.1%}")
     head = f"\n{len(gaps)} rough, nearly flat and two-lobed gaps, default methods, cold, µs\n"

@@ -11,7 +11,6 @@ element-wise half space and the default methods are solved with both. A second t
 
 from __future__ import annotations
 
-import argparse
 import math
 from collections.abc import Iterator
 from dataclasses import replace
@@ -23,7 +22,7 @@ import numpy as np
 import contact
 import reference
 from benchmarks.patches_of_sets import BOTH, pair_of
-from benchmarks.tables import table
+from benchmarks.tables import read_options, table
 from contact.geometry.wheelset import Irregularity, Pose, Velocity
 from contact.pair import ElasticRail, PairSolution, WheelRailPair
 
@@ -79,11 +78,9 @@ def on_springs(solver: WheelRailPair, row: dict[str, str]) -> PairSolution:
 
 
 def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("folder", type=Path, help="folder of the reference sets")
     head = ["pose", "lateral deflection [mm]", "gap at the reference [µm]"]
     head += [f"{method}, {point}: [μN], [µm]" for method in ("half space", "strips") for point in ("ours", "CONTACT's")]
-    folder = parser.parse_args().folder
+    folder = read_options(__doc__, folder=Path).folder
     print(table(head, list(rows(folder))))
     head = ["pose", "lateral deflection [mm]", "error [µm]", "error of the deflection [%]", "error of the force [%]"]
     print(table(head, list(balances(folder))))

@@ -28,7 +28,8 @@ def read_options(
 ) -> argparse.Namespace:
     """Return the options of a benchmark: ``--name``, or the first argument for the name `folder`.
 
-    A default says of which type an option is: a list takes several values, False is a flag, and a type has no default.
+    A default says of which type an option is: a list takes several values, False is a flag, and a type has no default. A folder
+    may be left out if its default is None.
     """
     raw = argparse.RawDescriptionHelpFormatter
     parser = argparse.ArgumentParser(description=description, formatter_class=raw)
@@ -37,8 +38,10 @@ def read_options(
             parser.add_argument(f"--{name}", action="store_true")
         elif isinstance(default, list):
             parser.add_argument(f"--{name}", type=type(default[0]), nargs="*", default=default)
+        elif name == "folder":
+            parser.add_argument(name, type=Path, nargs="?" if default is None else None)
         elif isinstance(default, type):
-            parser.add_argument("folder" if name == "folder" else f"--{name}", type=default)
+            parser.add_argument(f"--{name}", type=default)
         else:
             parser.add_argument(f"--{name}", type=type(default), default=default)
     return parser.parse_args(arguments)

@@ -3,17 +3,15 @@
 from __future__ import annotations
 
 import math
-import multiprocessing
-from collections.abc import Callable, Iterator
-from concurrent.futures import ProcessPoolExecutor
+from collections.abc import Callable
 from pathlib import Path
 
 from contact.errors import ContactError
-from contact.forces import cores
 from contact.inputs.creepage import Creepage
 from contact.inputs.material import Material
 from contact.solve import solve
 from contact.study.ellipse import ellipse
+from contact.study.reference import in_processes
 from contact.theory import force_table as table
 from contact.theory import kalker
 
@@ -49,23 +47,13 @@ def build(
         path.write_text(heading + "".join(line + "\n" for line in lines), encoding="utf-8")
         jobs = [(*row, elements) for row in todo[len(lines) :]]
         with path.open("a", encoding="utf-8") as file:
-            for n, line in enumerate(_solved(jobs, processes), len(lines) + 1):
+            for n, line in enumerate(in_processes(_row, jobs, processes), len(lines) + 1):
                 file.write(line + "\n")
                 file.flush()
                 if progress is not None:
                     progress(n / len(todo), f"row {n} of {len(todo)}")
     except OSError as error:
         raise ContactError(f"{path} cannot be written: {error.strerror}") from None
-
-
-def _solved(jobs: list[tuple[int, int, int, int]], processes: int | None) -> Iterator[str]:
-    """Yield the lines of the jobs in their order."""
-    count = min(processes or cores(), len(jobs))
-    if count <= 1:
-        yield from map(_row, jobs)
-        return
-    with ProcessPoolExecutor(count, mp_context=multiprocessing.get_context("spawn")) as pool:
-        yield from pool.map(_row, jobs)
 
 
 def _heading(elements: int) -> str:

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import math
 import multiprocessing
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import ProcessPoolExecutor
 from functools import cache
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeVar
 
 import numpy as np
 
@@ -23,6 +23,8 @@ from contact.study.ellipse import ellipse
 
 Forces = tuple[float, float, float]
 _CHUNK = 20
+Job = TypeVar("Job")
+Answer = TypeVar("Answer")
 
 
 def reference_forces(
@@ -60,7 +62,7 @@ def reference_forces(
     jobs = [
         [(int(d.ellipse[k]), d.longitudinal[k], d.lateral[k], d.spin[k], elements) for k in chunk] for chunk in chunks
     ]
-    for n, (chunk, found) in enumerate(zip(chunks, _solved(jobs, processes), strict=True), 1):
+    for n, (chunk, found) in enumerate(zip(chunks, in_processes(_solve, jobs, processes), strict=True), 1):
         rows = dict(zip((int(d.number[k]) for k in chunk), found, strict=True))
         known |= rows
         if stored is not None:
@@ -70,14 +72,14 @@ def reference_forces(
     return np.array([known[int(number)] for number in d.number])
 
 
-def _solved(jobs: list[list[tuple[Any, ...]]], processes: int | None) -> Iterator[list[Forces]]:
-    """Yield the results of the jobs in their order."""
+def in_processes(solve: Callable[[Job], Answer], jobs: Sequence[Job], processes: int | None) -> Iterator[Answer]:
+    """Yield the answers of the jobs in their order, from as many processes, by default from all cores."""
     count = min(processes or cores(), len(jobs))
     if count <= 1:
-        yield from map(_solve, jobs)
+        yield from map(solve, jobs)
         return
     with ProcessPoolExecutor(count, mp_context=multiprocessing.get_context("spawn")) as pool:
-        yield from pool.map(_solve, jobs)
+        yield from pool.map(solve, jobs)
 
 
 def _solve(cases: list[tuple[Any, ...]]) -> list[Forces]:
