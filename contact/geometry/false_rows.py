@@ -14,10 +14,8 @@ Mask = NDArray[np.bool_]
 _BEYOND = 1.5  # extents of the other points: a value farther from them is no coordinate
 _SPREADS = 8.0  # quartile ranges from the median: the same for values that differ
 _JUMP, _OVER_SPACING = 0.05, 4.0  # least step to a false point, over the extent and over the median step
-_RETURN, _RETURN_OF_CODE = (
-    0.25,
-    0.7,
-)  # greatest distance of the points around over both steps; of zeros and repeated values
+_RETURN = 0.25  # greatest distance of the points around over the two steps to a false point and back
+_RETURN_OF_CODE = 0.7  # the same for zeros and repeated values
 _FEW, _SHARE, _SHARE_AT_END = 3, 0.05, 0.02  # points beside the profile that may be false together
 _SHARE_OF_ZEROS = 0.25  # of the points that may be false in one run with 0 in a column
 _SHARE_REPEATED = 0.1  # of the points that may stand at several places

@@ -198,7 +198,10 @@ def body(case: Case, side: str) -> Profile | RailSurface | WheelSurface:
 
 
 def _points(path: Path, kind: str, scale: float, mirror_y: bool, mirror_z: int) -> Array:
-    """Return the points [m] from the gauge or flange side on, y to the field side and z down."""
+    """Return the points [m] from the gauge or flange side on, y to the field side and z down.
+
+    `mirror_z` says that the file's z shall change its sign (1) or not (-1), or that its points tell (0).
+    """
     reader = _READERS.get(path.suffix.lower(), formats.columns)
     content = reader(path, formats.Choice("right"))
     for finding in content.told:
@@ -224,8 +227,7 @@ def _smoothed(case: Case, side: str, points: Array) -> tuple[Array, Array, Array
         raise refuse(case, "smoothing", "ISMOOTH = 2")
     if kind == 0:
         return penalised(y, z, 1e-9 * amount)
-    length = amount
-    length *= 1e-3
+    length = 1e-3 * amount
     if length < _SHORTEST:
         return y, z, None
     if length > _LONGEST:

@@ -98,11 +98,8 @@ def design(cases: int | None = None) -> Design:
     number = np.arange(total)
     if cases is not None and cases < total:
         number = np.sort(np.random.default_rng(2012).permutation(total)[:cases])
-    place = np.unravel_index(number, (len(ELLIPSES), len(SPINS), len(ANGLES), len(SIZES)))
-    ellipse, (chi, angle, size) = (
-        place[0],
-        (np.array(v)[k] for v, k in zip((SPINS, ANGLES, SIZES), place[1:], strict=True)),
-    )
+    ellipse, *places = np.unravel_index(number, (len(ELLIPSES), len(SPINS), len(ANGLES), len(SIZES)))
+    chi, angle, size = (np.array(values)[k] for values, k in zip((SPINS, ANGLES, SIZES), places, strict=True))
     a, b, rho = np.array(ELLIPSES)[ellipse].T
     c = np.sqrt(a * b)
     creepage = size * FRICTION * c / rho

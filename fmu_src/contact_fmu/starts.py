@@ -6,10 +6,10 @@ from contact.damage import DamageParameters
 from contact.errors import ContactError
 from contact.friction import LAWS, VELOCITIES, Friction
 from contact.geometry.profile import Kind, Profile
+from contact_models.runs import simulated
 from contact_models.runs.scenario import WEAR_LAW, Methods, Profiles, Scenario
-from contact_models.vehicle.course import lay
 from contact_models.vehicle.kernels.layout import Axis
-from contact_models.vehicle.simulation import ContactOptions, Simulation
+from contact_models.vehicle.simulation import Simulation
 from .tables.solver import FRICTION, FRICTION_LAW, FRICTION_VELOCITY, THERMAL
 from .tables.vehicle import Starts
 
@@ -53,14 +53,7 @@ def inputs(given: Scenario, start: float) -> dict[str, float]:
 
 def open_vehicle(given: Scenario, start: float) -> Starts:
     """Return the starts of the FMU `OpenVehicle` at the place `start` [m]: poses of its wheelsets and place of the rails."""
-    d, methods = given.declared, given.declared.methods
-    track = lay(d.track, d.length, given.speed, (d.seed, *given.draw), d.recording.settling)
-    options = ContactOptions(
-        normal=methods.normal, tangential=methods.tangential, n_strips=methods.strips, n_elements=methods.elements
-    )
-    rails = given.rails * len(given.vehicle.wheelsets)
-    simulation = Simulation(given.vehicle, track, given.wheels, rails, given.friction, options, start=start)
-    return of_simulation(given, simulation, start)
+    return of_simulation(given, simulated.simulation(given, simulated.track(given), start=start), start)
 
 
 def of_simulation(given: Scenario, simulation: Simulation, start: float) -> Starts:

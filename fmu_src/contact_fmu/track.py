@@ -10,9 +10,8 @@ from pathlib import Path
 
 from contact.arrays import Array
 from contact.errors import ContactError
-from contact_models.runs import scenario
+from contact_models.runs import scenario, simulated
 from contact_models.runs.scenario import Scenario
-from contact_models.vehicle.course import lay
 from contact_models.vehicle.kernels.layout import TrackRow
 from . import archive, resources
 from .tables.vehicle import TRACK
@@ -23,8 +22,7 @@ ROWS = len(TrackRow)
 
 def pack(given: Scenario) -> bytes:
     """Return the resource of the track of a scenario."""
-    d = given.declared
-    return pack_rows(lay(d.track, d.length, given.speed, (d.seed, *given.draw), d.recording.settling))
+    return pack_rows(simulated.track(given))
 
 
 def pack_rows(rows: Array) -> bytes:

@@ -205,7 +205,7 @@ def lobes(line: Matrix, start: int, end: int, z: float, lobe: Lobes) -> int:
     Points are weighted with depth^(5/2), which is the square of the interpenetration integrated along x. The mean
     position becomes the reference point, and the mean direction of the rail becomes the contact angle. So both move
     smoothly with the pose, and a new lobe enters without a jump. The weight is that of CONTACT: its printed reference
-    points are reproduced with this power and with no other (benchmarks/geometry_table.py).
+    points are reproduced with this power and with no other (tests/geometry/test_against_contact.py).
     """
     k, inside = -1, False
     gap, opening = line[Curve.GAP, start:end], line[Curve.OPENING, start:end]

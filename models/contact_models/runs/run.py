@@ -14,14 +14,13 @@ from contact.arrays import Array
 from contact.errors import ContactError
 from contact.geometry.profile import Profile
 from ..vehicle import linear
-from ..vehicle.course import SPACING, lay
+from ..vehicle.course import SPACING
 from ..vehicle.declared import SIDES, VehicleDeclaration
 from ..vehicle.duration import doubt_duration
 from ..vehicle.kernels.layout import Book, Sum
 from ..vehicle.kernels.motion import spin_rate
 from ..vehicle.ledgers import BODIES, fill, ledger
-from ..vehicle.simulation import ContactOptions, Simulation
-from ..vehicle.track import Track
+from . import simulated
 from .notebook import of_run
 from .scenario import Scenario
 from .series import columns, sample
@@ -82,16 +81,6 @@ class VehicleRun:
     def __init__(self, scenario: Scenario, threads: int = 1) -> None:
         d, vehicle = scenario.declared, scenario.vehicle
         self.scenario = scenario
-        options = ContactOptions(
-            normal=d.methods.normal,
-            tangential=d.methods.tangential,
-            n_strips=d.methods.strips,
-            n_elements=d.methods.elements,
-            material=d.methods.material,
-            damage=d.damage,
-            pace=d.methods.pace,
-        )
-        self._options = options
         uneven = self._uneven = scenario.uneven
         rails: dict[str, Profile] = dict(zip(SIDES, scenario.rails, strict=True))
         histograms = {
@@ -106,14 +95,16 @@ class VehicleRun:
         }
         # wheels share the scratch memory of their ledgers, so uneven ones have one too, which stays empty
         ledgers = tuple(
-            ledger(histograms[name, side, "wheel"], histograms[name, side, "rail"], options.n_strips)
+            ledger(histograms[name, side, "wheel"], histograms[name, side, "rail"], d.methods.strips)
             for name, side in scenario.wheel_names
         )
         self.histograms = {key: each for key, each in histograms.items() if key[:2] not in self.without_damage}
-        track = lay(d.track, d.length, scenario.speed, (d.seed, *scenario.draw), d.recording.settling)
+        track = simulated.track(scenario)
         ahead = max(axle.at for axle in vehicle.wheelsets) + 1.0  # all axles start before the irregularities
         surfaces: dict[str, Any] = {"uneven": uneven, "sections": scenario.sections}
-        self.simulation = self._simulation(track, ledgers=ledgers, start=-ahead, threads=threads, **surfaces)
+        self.simulation = simulated.simulation(
+            scenario, track, ledgers=ledgers, start=-ahead, threads=threads, **surfaces
+        )
         impacts = any(surfaces.values()) or d.track.resolution < SPACING
         longest = _LONGEST_UNEVEN if impacts else _LONGEST_STEP
         self.step = d.recording.step or min(longest, 0.7 * self._stable(vehicle))
@@ -134,18 +125,6 @@ class VehicleRun:
         self._before = self.simulation.state.u.copy()
         self._rows: list[Array] = []
 
-    def _simulation(self, track: Array, **options: Any) -> Simulation:
-        """Return the vehicle with the profiles of the scenario on a track."""
-        scenario = self.scenario
-        rails = scenario.rails * len(scenario.vehicle.wheelsets)
-        return Simulation(
-            scenario.vehicle, track, scenario.wheels, rails, scenario.friction, self._options, **options
-        )  # fmt: skip
-
-    def _on_straight(self, speed: float) -> Simulation:
-        """Return the vehicle on ideal straight track at a speed [m/s]."""
-        return self._simulation(lay(Track(), 1.0, lambda s: speed, (0,), 0.0))
-
     def _stable(self, vehicle: VehicleDeclaration) -> float:
         """Return an estimate of the longest stable step [s]: that of the spin of the axles, I V/(f r²) at the slowest speed."""
         model = self.simulation.model
@@ -153,12 +132,12 @@ class VehicleRun:
 
     def _growth(self) -> float:
         """Return the largest factor by which a small motion grows in a step."""
-        return linear.amplification(self._on_straight(self.scenario.slowest), self.step)
+        return linear.amplification(simulated.on_straight(self.scenario, self.scenario.slowest), self.step)
 
     @cached_property
     def stability(self) -> Stability:
         """Modes, conicities and critical speeds, found when they are read."""
-        return Stability(self.scenario, self._options, self._on_straight, self.step)
+        return Stability(self.scenario, self.step)
 
     @property
     def steps(self) -> int:
@@ -290,7 +269,7 @@ class VehicleRun:
     @property
     def _seizure(self) -> float:
         """Share of the samples at which the pressure of the worst wheel is in Archard's seizure; 0 with other laws."""
-        damage, steel = self.scenario.declared.damage, self._options.material
+        damage, steel = self.scenario.declared.damage, self.scenario.declared.methods.material
         counted = self.series["distance"] >= self.scenario.declared.recording.settling
         if damage.wear_law != "archard" or not counted.any():
             return 0.0
@@ -334,11 +313,12 @@ class VehicleRun:
 
     def damage(self) -> dict[tuple[str, str, str], Histogram]:
         """Return `histograms`, filled with the damage so far."""
-        simulation, methods = self.simulation, {f"{self._options.normal} + {self._options.tangential}"}
+        simulation, methods = self.simulation, self.scenario.declared.methods
+        names = {f"{methods.normal} + {methods.tangential}"}
         for number, (name, side) in enumerate(self.scenario.wheel_names):
             if number not in self._uneven:
                 both = self.histograms[name, side, "wheel"], self.histograms[name, side, "rail"]
-                fill(both, simulation.wheel_arrays, number, self._distance, methods, self._options.material)
+                fill(both, simulation.wheel_arrays, number, self._distance, names, methods.material)
         return self.histograms
 
     def save(self) -> dict[str, Array]:

@@ -13,7 +13,8 @@ from contact.geometry import conicity
 from ..vehicle import linear
 from ..vehicle.hunting import Hunting, fall
 from ..vehicle.kernels.layout import Axis
-from ..vehicle.simulation import ContactOptions, Simulation
+from ..vehicle.simulation import Simulation
+from . import simulated
 from .kept import kept
 from .scenario import Scenario
 
@@ -30,17 +31,16 @@ class Stability:
     Parameters
     ----------
     scenario : Scenario
-    options : ContactOptions
-    on_straight : callable
-        Returns the vehicle at rest on straight ideal track at a speed [m/s].
     step : float
         Of the scenario's run [s].
     """
 
-    def __init__(
-        self, scenario: Scenario, options: ContactOptions, on_straight: Callable[[float], Simulation], step: float
-    ) -> None:
-        self._scenario, self._options, self._on_straight, self._step = scenario, options, on_straight, step
+    def __init__(self, scenario: Scenario, step: float) -> None:
+        self._scenario, self._step = scenario, step
+        self._options = simulated.options(scenario)
+
+    def _on_straight(self, speed: float) -> Simulation:
+        return simulated.on_straight(self._scenario, speed)
 
     @cached_property
     def critical_speed(self) -> float:

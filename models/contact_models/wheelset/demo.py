@@ -20,6 +20,7 @@ import contact
 from contact.arrays import Array
 from contact.cli import options as opt
 from contact.cli.output import deliver, drawing, reported, stop
+from contact.cli.report import titled
 from contact.geometry.wheelset import Irregularity, Pose, Velocity
 from ..runs.scenario import Scenario
 from ..vehicle import linear
@@ -218,7 +219,7 @@ def _critical_speed(given: Scenario) -> float:
 
 
 def _table(values: dict[str, str]) -> Table:
-    table = Table("quantity", "value", title="wheelset S1002 on 60E1")
+    table = titled("wheelset S1002 on 60E1", "quantity", "value")
     table.columns[1].justify = "right"
     for name, value in values.items():
         table.add_row(name, value)
