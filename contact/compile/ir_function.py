@@ -45,6 +45,17 @@ _OF_INTEGERS = {
 _COMPARED = {"eq": "==", "ne": "!=", "gt": ">", "ge": ">=", "lt": "<", "le": "<="}
 _OPPOSITE = {"gt": "<=", "ge": "<", "lt": ">=", "le": ">"}
 _CONVERSIONS = {"sitofp", "uitofp", "fptosi", "zext", "sext", "trunc", "inttoptr", "ptrtoint"}
+#: Classes of floats, bits of `llvm.is.fpclass` → test of x in C. It does not tell apart zeros, nor kinds of NaN.
+_CLASSES = {
+    0x003: "!(x == x)",
+    0x004: "x == -INFINITY",
+    0x008: "(x > -INFINITY && x <= -0x1p-1022)",
+    0x010: "(x > -0x1p-1022 && x < 0.0)",
+    0x060: "x == 0.0",
+    0x080: "(x > 0.0 && x < 0x1p-1022)",
+    0x100: "(x >= 0x1p-1022 && x < INFINITY)",
+    0x200: "x == INFINITY",
+}
 #: Intrinsics that C has under the same name, or `ir_to_c` defines.
 _INTRINSICS = {
     *("fabs", "sqrt", "exp", "log", "pow", "sin", "cos", "tan", "copysign", "floor", "ceil"),
@@ -306,12 +317,22 @@ class Function:
         arguments = [self._typed(argument) for argument in split(given)]
         if not name.startswith("@llvm."):
             return kind, f"{identifier(name)}({', '.join(arguments)})"
+        if name == "@llvm.is.fpclass.f64":
+            return kind, _is_of_class(arguments[0], int(split(given)[1].split()[-1]))
         word = name.split(".")[1]
         if word not in _INTRINSICS:
             raise unknown(name)
         if word.startswith("mem"):
             arguments = [*arguments[:2], f"(size_t){arguments[2]}"]  # the fourth says whether the memory is volatile
         return kind, f"{word}({', '.join(arguments)})"
+
+
+def _is_of_class(value: str, asked: int) -> str:
+    """Return the C expression of whether a float is of one of the classes that are `asked` for, bits of LLVM's."""
+    found = [(bits, test) for bits, test in _CLASSES.items() if asked & bits]
+    if sum(bits for bits, _ in found) != asked:
+        raise unknown(f"llvm.is.fpclass {asked}")
+    return " || ".join(re.sub(r"\bx\b", value, test) for _, test in found) or "0"
 
 
 def _compared(predicate: str, kind: str, a: str, b: str) -> str:

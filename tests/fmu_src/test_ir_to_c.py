@@ -63,6 +63,15 @@ def test_operations_on_floats(operation, tmp_path):
     assert all(_same(one(a, b), other(a, b)) for a, b in product(NUMBERS, NUMBERS))
 
 
+@pytest.mark.parametrize("asked", [3, 504, 519, 0x204, 0x198, 0x60, 0x3FF, 0x10, 0x80])
+def test_classes_of_floats(asked, tmp_path):
+    ir = "declare i1 @llvm.is.fpclass.f64(double, i32 immarg)\n" + _of_numbers(
+        f"  %c = call i1 @llvm.is.fpclass.f64(double %a, i32 {asked})\n  %r = zext i1 %c to i64\n  ret i64 %r", "i64"
+    )
+    one, other, _keep = _both(ir, ctypes.c_int64, [ctypes.c_double] * 2, tmp_path)
+    assert all(one(a, 0.0) == other(a, 0.0) for a in (*NUMBERS, 5e-324, -1e-310, 2.2250738585072014e-308))
+
+
 def test_entries_of_linked_kernels_are_declared():
     """A vehicle calls those of the pair. C refuses a call without a declaration."""
     ir = (
