@@ -187,6 +187,13 @@ def _of_side(contacts, w):
 
 
 @arranging
+def _arrays_of_side(contacts, side, given):
+    """Return the arrays of the pair in the workspace of a side."""
+    values, work = _of_side(contacts, side)
+    return _arrange_pair(carray(values, (_N_ITS,)), work, given)[0]
+
+
+@arranging
 def _solve(contacts, w, given):
     """Solve the contact of wheel `w` for the values of its side; return the pair's code."""
     memory = contacts.memories[w]
@@ -229,15 +236,13 @@ def _n_patches(wheel):
 
 
 @arranging
-def _follow(v, starts, parts, contacts, w, h, given):
+def _follow(v, starts, parts, contacts, w, arrays, h, given):
     """Fill the forces of wheel `w` as `wheels.follow_wheel`; return its status or the code of a failure.
 
-    With h = 0 its contact is solved.
+    With h = 0 its contact is solved. `arrays` are those of its side.
     """
     last, wheel, values = contacts.last, parts.scratch.wheels[w], contacts.values[w % 2]
     patches = contacts.patches[w * MAX_PATCHES : (w + 1) * MAX_PATCHES]
-    its_values, its_work = _of_side(contacts, w)
-    arrays, _, _ = _arrange_pair(carray(its_values, (_N_ITS,)), its_work, given)
     asked, friction, paced = parts.scratch.given[w], parts.scratch.seats[w].friction, last.limits[0] > 1.0 and h > 0.0
     near, n_before, counted = False, _n_patches(wheel), h
     if paced:
@@ -267,11 +272,14 @@ def _follow(v, starts, parts, contacts, w, h, given):
 
 
 @arranging
-def _press(v, parts, contacts, h, given):
-    """Fill the forces of all wheels, add up their totals over `h` [s]; return the worst status or the code of a failure."""
+def _press(v, parts, contacts, right, left, h, given):
+    """Fill the forces of all wheels, add up their totals over `h` [s]; return the worst status or the code of a failure.
+
+    `right` and `left` are the arrays of both sides.
+    """
     worst, starts = 0, _starts(given)
     for w in range(contacts.memories.shape[0]):
-        code = _follow(v, starts, parts, contacts, w, h, given)
+        code = _follow(v, starts, parts, contacts, w, left if w % 2 == 1 else right, h, given)
         if code > _WORST_STATUS:
             return code
         worst = max(worst, code)
@@ -287,11 +295,13 @@ def _advance(v, at, parts, contacts, h, given):
     model, state, scratch, motions, speed = parts.model, parts.state, parts.scratch, parts.motions, v[at.speed]
     steps = max(math.ceil(min(h / v[at.resolution_step], 1e9) - 1e-6), 1)
     step, code = h / steps, 0
+    right = _arrays_of_side(contacts, 0, given)
+    left = _arrays_of_side(contacts, 1, given)
     for _ in range(steps):
         if motion.has_ended(parts.model, parts.state):
             return Failure.ENDED
         motion.prepare_contacts(model, state, motions, scratch, speed)
-        code = _press(v, parts, contacts, step, given)
+        code = _press(v, parts, contacts, right, left, step, given)
         if code > _WORST_STATUS:
             return code
         if h > 0.0:
