@@ -99,21 +99,30 @@ def positions(motion: Record, frame: Frame, wheel: Array, n_wheel: int, patch: R
 
 
 @kernel
-def outline(wheel: Array, n_wheel: int, j: int, u: float, arm: float) -> float:
-    """Return the curvature k of the trace line at `u` [1/m]: of the arc through its points at `arm` on both sides.
-
-    The profiles' own second derivatives are noise.
-    """
+def _arc_at(wheel: Array, n_wheel: int, j: int, u: float, arm: float) -> tuple[float, float, float, float]:
+    """Return width, rise and both slopes of the trace line over `arm` on both sides of `u`, for `_outline`."""
     low, high = max(u - arm, wheel[Curve.Y, 0]), min(u + arm, wheel[Curve.Y, n_wheel - 1])
     while j > 0 and wheel[Curve.Y, j] > low:
         j -= 1
     v0, m0 = at(wheel, j, low)
     v1, m1 = at(wheel, advance(wheel, n_wheel, j, high), high)
-    chord = math.sqrt((high - low) ** 2 + (v1 - v0) ** 2)
-    # the sine of half the angle between both tangents, from sine and cosine of the whole one
-    per_length = 1.0 / math.sqrt((1.0 + m0 * m0) * (1.0 + m1 * m1))
-    turn = (m0 - m1) * per_length / math.sqrt(2.0 + 2.0 * (1.0 + m0 * m1) * per_length)
-    return 2.0 * turn / chord if chord > 0.0 else 0.0
+    return high - low, v1 - v0, m0, m1
+
+
+@kernel
+def _outline(arcs: Array, n: int, out: Array) -> None:
+    """Fill `out` with the curvature k of the trace line [1/m]: of the arc through its points at both ends of each of `arcs`.
+
+    The profiles' own second derivatives are noise. Every sample is by itself, so that the compiler takes several at once.
+    """
+    widths, rises, begins, ends = arcs[0], arcs[1], arcs[2], arcs[3]
+    for k in range(n):
+        width, rise, m0, m1 = widths[k], rises[k], begins[k], ends[k]
+        chord = math.sqrt(width**2 + rise**2)
+        # the sine of half the angle between both tangents, from sine and cosine of the whole one
+        per_length = 1.0 / math.sqrt((1.0 + m0 * m0) * (1.0 + m1 * m1))
+        turn = (m0 - m1) * per_length / math.sqrt(2.0 + 2.0 * (1.0 + m0 * m1) * per_length)
+        out[k] = 2.0 * turn / chord if chord > 0.0 else 0.0
 
 
 @kernel
@@ -133,7 +142,7 @@ def half_curvature(slope: float, k: float, tilt: float, r: float, axis: Directio
 
             2 A cos D = a (1 - s²)/(1 - k s²/a).
 
-    k is that of `outline`, `slope` the slope of the trace line in the plane and `tilt` that in track coordinates, `axis` the
+    k is that of `_outline`, `slope` the slope of the trace line in the plane and `tilt` that in track coordinates, `axis` the
     direction of the axle.
     """
     lx, ly, lz = axis
@@ -162,7 +171,7 @@ def sample(
             out[Sep.Y, i] = grid[i]
     else:
         spread(wheel, n_wheel, low, high, size_of(motion), out[Sep.Y])
-    i, j, arm, slopes = 0, 0, _ARM * size_of(motion), space.work[0]
+    i, j, arm, slopes, heights, arcs = 0, 0, _ARM * size_of(motion), space.work[0], space.work[1], space.work[2:6]
     for k in range(out.shape[1]):
         u = out[Sep.Y, k]
         v = min(max(u, low), high)
@@ -172,13 +181,13 @@ def sample(
         gap = rail_height - height + patch.approach
         out[Sep.G, k] = max(gap, 0.0) + _OPENING * abs(u - v)
         out[Sep.TILT, k] = 0.5 * (slope + rail_slope)
-        out[Sep.XC, k], slopes[k], out[Sep.A, k] = height, slope, outline(wheel, n_wheel, j, v, arm)
+        heights[k], slopes[k] = height, slope
+        arcs[0, k], arcs[1, k], arcs[2, k], arcs[3, k] = _arc_at(wheel, n_wheel, j, v, arm)
+    _outline(arcs, out.shape[1], out[Sep.A])
     share = share_beside(patch, motion)
-    for k in range(out.shape[1] if share > 0.0 else 0):
-        space.work[1, k] = out[Sep.XC, k]
     across, down, x = motion.y, motion.z - motion.radius, patch.x
     for k in range(out.shape[1]):
-        v, height, slope = min(max(out[Sep.Y, k], low), high), out[Sep.XC, k], slopes[k]
+        v, height, slope = min(max(out[Sep.Y, k], low), high), heights[k], slopes[k]
         tilt = track_slope(frame, slope)
         py = y0 + v * c - height * s - across
         pz = z0 + v * s + height * c - down
