@@ -138,6 +138,12 @@ def _prepared(n, arrays):
 
 
 @kernel
+def _enters(arrays):
+    """Return whether there is a ledger, and a distance over which its damage counts."""
+    return arrays.ledger.bins.shape[2] > 0 and arrays.ledger.settings[0].distance > 0.0
+
+
+@kernel
 def _solve(n, pressed, enters, arrays):
     """Solve the `n` patches of the last search and add up. Return d(ln N)/dz of their normal forces, vertically [1/m].
 
@@ -165,7 +171,7 @@ def _solve(n, pressed, enters, arrays):
             add_wrench(contact, pressure, patch.share, motion, total)
             add_results(result, damage, patch.share, total)
             total.gap_error = max(total.gap_error, contact.gap_error)
-            if enters and arrays.ledger.bins.shape[2] > 0 and arrays.ledger.settings[0].distance > 0.0:
+            if enters and _enters(arrays):
                 enter(patch, n_strips, damage, arrays)
     total.z, total.n_patches = motion.z, n
     compare_forces(total)
@@ -237,14 +243,14 @@ def _solve_under(mode, force, arrays):
         if changing:  # grids that are laid for another height would change the force
             begin(search, z)
         n = _from_nothing(describe(search, z, nodes), arrays)
-        pressed = _press_patch(0, arrays) if mode == Height.LOAD and n == 1 else -1
-        if pressed < 0:
-            growth = _solve(n, -1, False, arrays)
-            reached = _carried(mode, n, arrays)
-        else:
+        pressed = _press_patch(0, arrays) if n == 1 else -1
+        if mode == Height.LOAD and n == 1:
             patch, result = search.patches[0], arrays.result[0]
             cosine = math.cos(patch.angle) * math.cos(patch.pitch)
             reached, growth = (result.N * cosine, result.stiffness / result.N * cosine) if pressed > 0 else (0.0, 0.0)
+        else:
+            growth = _solve(n, pressed, False, arrays)
+            reached = _carried(mode, n, arrays)
         if root.evaluations == 0 and reached > 0.0 and growth > 0.0:
             root.slope = 2.0 / 3.0 * reached ** (2.0 / 3.0) * growth
         missing = abs(reached - force) / force
@@ -260,14 +266,16 @@ def _solve_under(mode, force, arrays):
     motion.missed = best
     if best > acceptable and root.high == root.last:
         return NoAnswer.NOT_SETTLED.value
-    enters = arrays.ledger.settings[0].distance > 0.0
-    if z != z_best or (pressed < 0 and enters):
+    enters = _enters(arrays)
+    if z != z_best or (n > 1 and enters):
         if changing:
             begin(search, z_best)
         n = _from_nothing(describe(search, z_best, nodes), arrays)
         _solve(n, -1, enters, arrays)
-    elif pressed >= 0:
+    elif mode == Height.LOAD and n == 1:
         _solve(n, pressed, enters, arrays)
+    elif enters and pressed > 0:
+        enter(search.patches[0], pressed, arrays.damage[0], arrays)
     if best > acceptable:  # the force jumps with the height: on surfaces, and by ANALYN where a lobe appears
         total.status = Status.NOT_CONVERGED.value
     return n

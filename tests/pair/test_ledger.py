@@ -64,6 +64,20 @@ def test_bins_are_those_of_the_histograms(law):
             assert name.endswith("exceedance") or theirs.any(), name
 
 
+@pytest.mark.parametrize(
+    "methods", [METHODS, {"n_strips": 20, "normal": "strip_halfspace", "tangential": "fastrip_mapped"}]
+)
+@pytest.mark.parametrize("force", ["load", "vertical"])
+def test_bins_under_a_force_are_those_at_the_height_that_carries_it(force, methods):
+    under, at_height = pair(ledger=ledger(), **methods), pair(ledger=ledger(), **methods)
+    for pose, distance in ROLLED.items():
+        z = under.solve(pose, VELOCITY, distance=distance, **{force: 60e3}).z
+        at_height.forget()
+        at_height.solve(replace(pose, z=z), VELOCITY, distance=distance)
+    assert under.arrays.ledger.bins.any()
+    np.testing.assert_array_equal(under.arrays.ledger.bins, at_height.arrays.ledger.bins)
+
+
 def test_a_softer_rail_loses_more_and_nothing_else_changes():
     alike, softer = rolled(pair(ledger=ledger())).copy(), rolled(pair(rail_wear=1.25, ledger=ledger()))
     np.testing.assert_array_equal(softer[Body.WHEEL], alike[Body.WHEEL])
