@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from contact.arrays import Array, require_numbers
+from contact.core import pack
 from contact.errors import ContactError
 from contact.friction import Friction
 from contact.inputs.creepage import Creepage
@@ -21,11 +22,12 @@ from contact.inputs.separation import Separation
 from contact.instance import workspace
 from contact.instance.case import cases as prepared_cases
 from contact.instance.case import set_surface
-from contact.kernels.arrays import Samples
+from contact.kernels.arrays import Samples, SolverArrays
 from contact.kernels.enumerations import LoadKind
-from contact.kernels.jacobian import COLUMNS, ROWS, solve_with_jacobian
+from contact.kernels.jacobian import COLUMNS, ROWS
 from contact.kernels.pipeline import solve_cases
-from contact.kernels.records import CASE, RESULT
+from contact.kernels.records import RESULT
+from contact.kernels.solver import derive_contact
 from contact.registry import DEFAULT_NORMAL, DEFAULT_TANGENTIAL, lookup
 from contact.results import BEND, Forces, Jacobian
 from contact.solver import require_conformal, require_resolution
@@ -152,19 +154,21 @@ def forces(
 
     def work(chunks: range) -> None:
         size = n_strips, n_elements, longest
+        if slopes is not None:
+            solver = workspace.solver_arrays(method, rolling, material.poisson_ratio, size)
+            packed = pack(SolverArrays, solver)
+            for first in chunks:
+                solver.workspace.space.memory[0] = 0.0
+                for i in range(first, min(first + _CHUNK, count)):
+                    solver.case[0] = cases[i]
+                    derive_contact(separations[which[i]].packed, False, packed)
+                    results[i], slopes[i] = solver.result[0], solver.slopes
+            return
         with_fields = conformal or material.pressure_limit < np.inf  # both compute the forces from the fields
         arrays = workspace.allocate(method, rolling, material.poisson_ratio, size, fields=with_fields)
         for first in chunks:
             arrays.space.memory[0] = 0.0
-            last = min(first + _CHUNK, count)
-            if slopes is None:
-                solve_cases(first, last, samples, bounds, which, cases, arrays, results)
-                continue
-            pair, answers = np.zeros(2, CASE), np.zeros(2, RESULT)  # the case and a neighbour
-            for i in range(first, last):
-                pair[0] = cases[i]
-                solve_with_jacobian(separations[which[i]].packed, pair, arrays, answers, slopes[i])
-                results[i] = answers[0]
+            solve_cases(first, min(first + _CHUNK, count), samples, bounds, which, cases, arrays, results)
 
     pieces = min(threads or cores(), -(-count // _CHUNK))
     if pieces <= 1:

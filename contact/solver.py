@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Mapping
 from dataclasses import replace
 from types import MappingProxyType, UnionType
@@ -23,16 +22,14 @@ from contact.inputs.separation import Separation
 from contact.instance import workspace
 from contact.instance.case import cases, set_surface
 from contact.instance.ownership import OwnsArrays, one_thread, within
-from contact.kernels.arrays import Cases, Integers, Results, Workspace
+from contact.kernels.arrays import SolverArrays
 from contact.kernels.enumerations import LoadKind
-from contact.kernels.given_force import solve_under_force
-from contact.kernels.jacobian import COLUMNS, ROWS, solve_with_jacobian
 from contact.kernels.normal.start import MEM_IMAGE
-from contact.kernels.pipeline import solve_cases
-from contact.kernels.records import RESULT
-from contact.kernels.searches import FORCE_SEARCH
+from contact.kernels.solver import derive_contact, solve_contact, solve_contact_under_force
 from contact.registry import DEFAULT_NORMAL, DEFAULT_TANGENTIAL, Method, lookup
 from contact.results import BEND, CaseForces, Jacobian, Prepared, Solution, Status
+from contact.results.later import STATES
+from contact.results.solution import BEND_AT, GAP_ERROR, READ_RESULT, STATUS
 from contact.view import trace
 
 #: The methods of the thesis and a resolution for them, as arguments of `solve`, `forces`, `Solver` and `WheelRailPair`.
@@ -94,6 +91,11 @@ class Solver(OwnsArrays):
         Most iterations of the strip half space, 1 to 1000. They cap the time of a call. What is not at rest then is iterated
         as often once more if they are 60 or more. After that the status is NOT_CONVERGED.
 
+    Attributes
+    ----------
+    arrays : contact.kernels.arrays.SolverArrays
+        All arrays, as the kernel uses them.
+
     Raises
     ------
     ContactError
@@ -129,35 +131,24 @@ class Solver(OwnsArrays):
             require_conformal(self.tangential)
         self.material, self.conformal = material, bool(conformal)
         self.max_iterations = ITERATIONS.require("max_iterations", max_iterations)
-        self._case = cases(
-            1, self.normal, self.tangential, material, conformal=conformal, max_iterations=self.max_iterations
-        )
-        self._member = {name: self._case[name] for name in self._case.dtype.names or ()}
-        self._result = np.zeros(1, RESULT)
         self.doubted = False  # whether the arguments of a call were judged
         self.told: set[str] = set()  # for what there was a ModelWarning
-        self._status, self._bend = self._result["status"], self._result["bend"]
-        self._bounds = np.zeros(2, np.int64)  # of the only separation
-        self._problem = pack(Integers, self._bounds), pack(Integers, np.zeros(1, np.int64)), pack(Cases, self._case)
-        self._answer = pack(Results, self._result)
-        self._two_cases, self._two_results = np.zeros(2, self._case.dtype), np.zeros(2, RESULT)
-        self._search = np.zeros(1, FORCE_SEARCH)
-        self._numbers = self._case.view(np.float64), self._result.view(np.float64)  # faster to copy than records
-        within(self.set_surface)(friction, speed)
         self._coefficients: NDArray[np.float64] | None = None
-        self._full: Workspace
-        self._forces_only: Workspace
-        self._allocate(require_integer("n_samples", n_samples, 3))
+        problem = cases(
+            1, self.normal, self.tangential, material, conformal=conformal, max_iterations=self.max_iterations
+        )
+        self._allocate(require_integer("n_samples", n_samples, 3), problem)
+        within(self.set_surface)(friction, speed)
 
     def _kept(self) -> Any:
-        return (self._friction, self._speed), self._coefficients, self._full.space.memory.copy()
+        return (self._friction, self._speed), self._coefficients, self._memory.copy()
 
     def _keep(self, kept: Any) -> None:
         surface, coefficients, memory = kept
         self.set_surface(*surface)
         if coefficients is not None:
             self.calibrate(coefficients)
-        self._full.space.memory[:] = memory
+        self._memory[:] = memory
 
     def __repr__(self) -> str:
         return (
@@ -179,34 +170,33 @@ class Solver(OwnsArrays):
     @one_thread
     def forget(self) -> None:
         """Discard the last solution, so that the next call is a cold start even with `warm`."""
-        self._full.space.memory[:] = 0.0
+        self._memory[:] = 0.0
 
     @one_thread
     def start_from(self, solution: Solution) -> None:
         """Start the next warm call from `solution`. A solution of another resolution is ignored."""
-        memory = self._full.space.memory
-        if solution.memory.size == memory.size:
-            memory[:] = solution.memory
+        if solution.memory.size == self._memory.size:
+            self._memory[:] = solution.memory
 
     @one_thread
     def calibrate(self, table: NDArray[np.float64]) -> None:
         """Use `table` of creepage coefficients (`contact.theory.kalker.constant_table`) instead of that of linear theory."""
         self._coefficients = table
-        self._allocate(self._n_samples)
+        self._allocate(self._n_samples, self._case)
 
-    def _allocate(self, n_samples: int) -> None:
-        """Allocate the workspaces for separations of `n_samples` samples."""
+    def _allocate(self, n_samples: int, problem: NDArray[np.void]) -> None:
+        """Allocate the arrays for separations of `n_samples` samples, with what is known of the `problem`."""
         size = self.n_strips, self.n_elements, n_samples
-        nu = self.material.poisson_ratio
-        self._full = workspace.allocate(self.normal, self.tangential, nu, size)
+        made = workspace.solver_arrays(self.normal, self.tangential, self.material.poisson_ratio, size)
         if self._coefficients is not None:
-            self._full = self._full._replace(tables=self._full.tables._replace(kalker=self._coefficients))
-        self._n_samples = n_samples
-        # For forces only, all strips share one row of fields. A curved surface and a pressure limit compute the forces
-        # from the fields, so they need all rows.
-        needed = self.conformal or self.material.pressure_limit < math.inf
-        self._forces_only = self._full._replace(fields=self._full.fields if needed else self._full.fields[:, :1].copy())
-        self._packed_full, self._packed_forces_only = pack(Workspace, self._full), pack(Workspace, self._forces_only)
+            tables = made.workspace.tables._replace(kalker=self._coefficients)
+            made = made._replace(workspace=made.workspace._replace(tables=tables))
+        self.arrays: SolverArrays = made
+        self._packed, self._n_samples = pack(SolverArrays, made), n_samples
+        self._case, self._memory = made.case[:1], made.workspace.space.memory
+        self._case[:] = problem
+        self._member = {name: self._case[name] for name in self._case.dtype.names or ()}
+        self._answer = made.result.view(np.uint8).data
 
     @one_thread
     def solve(
@@ -257,17 +247,17 @@ class Solver(OwnsArrays):
         """
         if force is not None and derivatives:
             raise ContactError("derivatives = True does not work with force; solve again with the creepage found")
-        jacobian = _jacobian(load) if derivatives else None
-        n = self._run(True, separation, creepage, load, approach, (friction, speed), warm, jacobian, force)
+        n, found = self._run(True, separation, creepage, load, approach, (friction, speed), warm, derivatives, force)
         if force is not None:
             vx, vy = (float(self._member[name][0]) for name in ("vx", "vy"))
             creepage = replace(as_creepage(creepage), longitudinal=vx, lateral=vy)
-        prepared = Prepared(self.normal.name, self.tangential.name, self.material, self._speed)
         if throw:
-            require_trustworthy(Status(self._status[0]), separation.y, load, approach)
-        doubt_strips(float(self._bend[0]), BEND, self.conformal, self.told)
-        doubt_gap(float(self._result["gap_error"][0]), self.normal.gap_limit, self.told)
-        return Solution.of_kernel(n, self._full, self._numbers, creepage, prepared, jacobian)
+            require_trustworthy(STATES[found[STATUS]], separation.y, load, approach)
+        doubt_strips(found[BEND_AT], BEND, self.conformal, self.told)
+        doubt_gap(found[GAP_ERROR], self.normal.gap_limit, self.told)
+        prepared = Prepared(self.normal.name, self.tangential.name, self.material, self._speed)
+        jacobian = self._jacobian(load) if derivatives else None
+        return Solution.of_kernel(found, n, self.arrays, creepage, prepared, jacobian)
 
     @one_thread
     def trace(self) -> str:
@@ -277,11 +267,12 @@ class Solver(OwnsArrays):
         loads [-]; the largest move of an end over the width [-]; the approach above first touch; the ends of the panels of
         strips; and what happened, such as a new panel on a lobe. After 64 iterations the last row stands for the last one.
         """
-        space, made = self._full.space, int(self._result["iterations"][0])
+        space, result = self.arrays.workspace.space, self.arrays.result[0]
+        made = int(result.iterations)
         of_normal = f"normal = {self.normal.name!r}: {made} iterations"
         if self.normal.interacting:
             of_normal += "\n" + trace.of_strips(space.iterates, made, bool(space.memory[MEM_IMAGE] > 0.0))
-        status = Status(self._status[0]).name
+        status = STATES[int(result.status)].name
         return f"{of_normal}\ntangential = {self.tangential.name!r}: no iterations; status {status}"
 
     @one_thread
@@ -298,14 +289,12 @@ class Solver(OwnsArrays):
         derivatives: bool = False,
     ) -> CaseForces:
         """Return the forces of one contact. Parameters as in `solve`; `status` tells whether they can be trusted."""
-        jacobian = _jacobian(load) if derivatives else None
-        self._run(False, separation, creepage, load, approach, (friction, speed), warm, jacobian)
-        Fx, Fy, Mz, N, approach, pmax, area, slip_area, power, *_ = self._result.item()
+        _, found = self._run(False, separation, creepage, load, approach, (friction, speed), warm, derivatives)
+        Fx, Fy, Mz, N, approach, pmax, area, slip_area, power, *_ = found
         slip_ratio = slip_area / area if area > 0.0 else 0.0
-        gap_error = float(self._result["gap_error"][0])
-        return CaseForces(
-            Fx, Fy, Mz, N, approach, pmax, area, slip_ratio, power, Status(self._status[0]), gap_error, jacobian
-        )
+        jacobian = self._jacobian(load) if derivatives else None
+        status, gap_error = STATES[found[STATUS]], found[GAP_ERROR]
+        return CaseForces(Fx, Fy, Mz, N, approach, pmax, area, slip_ratio, power, status, gap_error, jacobian)
 
     def _run(
         self,
@@ -316,10 +305,10 @@ class Solver(OwnsArrays):
         approach: float | None,
         surface: tuple[float | Friction | None, float | None],
         warm: bool,
-        jacobian: Jacobian | None,
+        derivatives: bool,
         force: object = None,
-    ) -> int:
-        """Check the arguments, fill the case and call the kernel; return the number of strips."""
+    ) -> tuple[int, tuple[Any, ...]]:
+        """Check the arguments, fill the case and call the kernel. Return the number of strips and the numbers of the result."""
         require_separation(separation, Separation)
         creepage, amount = as_creepage(creepage), require_amount(load, approach)
         wanted = None if force is None else as_numbers(wanted_force(force))
@@ -332,33 +321,28 @@ class Solver(OwnsArrays):
             vector = creepage.longitudinal, creepage.lateral, creepage.spin
             doubt_case(load, approach, vector, self._friction.static, self._speed)
             doubt_alike(self.material.coupling)
+        if separation.y.size > self._n_samples:
+            self._allocate(separation.y.size, self._case)
         member = self._member
         member["load_kind"][0] = LoadKind.APPROACH if load is None else LoadKind.LOAD
         member["amount"][0] = amount
         member["vx"][0], member["vy"][0], member["phi"][0] = creepage.longitudinal, creepage.lateral, creepage.spin
         member["rolling"][0] = separation.rolling
-        if separation.y.size > self._n_samples:
-            self._allocate(separation.y.size)
         if not warm:
-            self._full.space.memory[0] = 0.0
-        self._bounds[1] = separation.y.size
-        arrays = self._packed_full if with_fields else self._packed_forces_only
-        if jacobian is not None:
-            self._two_cases[0] = self._case[0]
-            n = int(solve_with_jacobian(separation.packed, self._two_cases, arrays, self._two_results, jacobian.values))
-            jacobian.values.setflags(write=False)
-            self._result[0] = self._two_results[0]
-            return n
-        if wanted is not None:
-            n = int(solve_under_force(separation.packed, self._case, arrays, self._two_results, self._search, *wanted))
-            self._result[0] = self._two_results[0]
-            return n
-        return int(solve_cases(0, 1, separation.packed, *self._problem, arrays, self._answer))
+            self._memory[0] = 0.0
+        if derivatives:
+            n = derive_contact(separation.packed, with_fields, self._packed)
+        elif wanted is not None:
+            n = solve_contact_under_force(separation.packed, self._packed, *wanted)
+        else:
+            n = solve_contact(separation.packed, with_fields, self._packed)
+        return n, READ_RESULT(self._answer)
 
-
-def _jacobian(load: float | None) -> Jacobian:
-    """Return a jacobian that a kernel has to fill."""
-    return Jacobian(np.zeros((ROWS, COLUMNS)), "approach" if load is None else "load")
+    def _jacobian(self, load: float | None) -> Jacobian:
+        """Return a copy of the derivatives of the last solution."""
+        values = self.arrays.slopes.copy()
+        values.setflags(write=False)
+        return Jacobian(values, "approach" if load is None else "load")
 
 
 def require_trustworthy(status: Status, y: NDArray[np.float64], load: float | None, approach: float | None) -> None:

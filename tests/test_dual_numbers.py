@@ -29,7 +29,7 @@ def scaled(error: np.ndarray, wanted: np.ndarray) -> float:
 
 def solver_of(normal: str, tangential: str) -> contact.Solver:
     made = contact.Solver(normal=normal, tangential=tangential, n_strips=10, n_elements=10)
-    made._case["tolerance"] = 1e-11
+    made.arrays.case["tolerance"] = 1e-11
     return made
 
 
@@ -39,7 +39,11 @@ def test_columns_of_creepage_and_friction(tangential):
     solution = solver.solve(SEPARATION, CREEPAGE, load=LOAD, derivatives=True)
     assert solution.jacobian is not None
     for column, member in ((0, "vx"), (1, "vy"), (2, "phi"), (4, "mu")):
-        own, case, result = copied(solver._full), record(solver._two_cases[0]), record(solver._two_results[0])
+        own, case, result = (
+            copied(solver.arrays.workspace),
+            record(solver.arrays.case[0]),
+            record(solver.arrays.result[0]),
+        )
         setattr(case, member, Dual(getattr(case, member), 1.0))
         if member == "mu":
             case.kinetic = case.mu
@@ -57,7 +61,7 @@ def test_columns_of_approach_and_load(normal):
     solver = solver_of(normal, "fastrip_mapped")
     approach = solver.forces(SEPARATION, CREEPAGE, load=LOAD).approach
     given = solver.solve(SEPARATION, CREEPAGE, approach=approach, derivatives=True)
-    own, case, result = copied(solver._full), record(solver._two_cases[0]), record(solver._two_results[0])
+    own, case, result = copied(solver.arrays.workspace), record(solver.arrays.case[0]), record(solver.arrays.result[0])
     own.space.memory[:] = 0.0
     plain("result", "clear")(result)
     case.amount = Dual(case.amount, 1.0)

@@ -19,6 +19,7 @@ from contact.kernels.arrays import (
     Search,
     Sheet,
     Size,
+    SolverArrays,
     SurfaceSearch,
     Tables,
     Workspace,
@@ -133,6 +134,12 @@ def allocate(
         strips,
         field_array,
     )
+
+
+def solver_arrays(normal: Method, tangential: Method, poisson_ratio: float, size: tuple[int, int, int]) -> SolverArrays:
+    """Return the arrays of a contact that is solved again and again. The arguments are those of `allocate`."""
+    full = Size(*size, int(normal.interacting), 1)
+    return _laid(memory.lay_solver, full, allocate(normal, tangential, poisson_ratio, size))
 
 
 def search(wheel: Array, rail: Array, grid: Array, n_samples: int) -> Search:

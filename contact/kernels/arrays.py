@@ -132,6 +132,22 @@ class Workspace(NamedTuple):
 
 
 @group
+class SolverArrays(NamedTuple):
+    """All arrays of one contact that is solved again and again. `case` and `result` have a second, scratch record.
+
+    `search` is that of a given force, `row` a single row of fields, for forces alone, `slopes` are the derivatives
+    (`contact.kernels.jacobian`).
+    """
+
+    workspace: Workspace
+    case: Cases
+    result: Results
+    search: ForceSearches
+    row: Cube
+    slopes: Matrix
+
+
+@group
 class PatchStrips(NamedTuple):
     """Rows of `strips` of one patch."""
 

@@ -13,7 +13,7 @@ import math
 
 from contact.core import entry, kernel
 from contact.kernels import root
-from contact.kernels.arrays import Cases, ForceSearch, ForceSearches, Results, Samples, Workspace
+from contact.kernels.arrays import ForceSearch
 from contact.kernels.enumerations import Status, Tangential
 from contact.kernels.friction import of_case
 from contact.kernels.pipeline import press_case, roll_case
@@ -221,17 +221,8 @@ def _judgement(search):
     return Status.UNREACHABLE if reached or flat else Status.NOT_CONVERGED
 
 
-@entry
-def solve_under_force(
-    sep: Samples,
-    cases: Cases,
-    workspace: Workspace,
-    results: Results,
-    searches: ForceSearches,
-    given: int,
-    Fx: float,
-    Fy: float,
-) -> int:
+@kernel
+def solve_under_force(sep, cases, workspace, results, searches, given, Fx, Fy):
     """As `pipeline.solve_case`, for creepages that give a force [N]; they are written into the case. Return the strip count.
 
     The search starts at the creepages of the case. The normal problem, which does not depend on them, is solved once.

@@ -11,8 +11,7 @@ this is the slope on that side.
 
 import math
 
-from contact.core import entry, kernel
-from contact.kernels.arrays import Cases, Matrix, Results, Samples, Workspace
+from contact.core import kernel
 from contact.kernels.enumerations import FrictionLaw, LoadKind, NormalFamily
 from contact.kernels.normal.tangent import follow, linearise
 from contact.kernels.pipeline import press_case, roll_case
@@ -244,8 +243,8 @@ def derive_solved(sep, n, cases, workspace, results, jacobian):
     return n
 
 
-@entry
-def solve_with_jacobian(sep: Samples, cases: Cases, workspace: Workspace, results: Results, jacobian: Matrix) -> int:
+@kernel
+def solve_with_jacobian(sep, cases, workspace, results, jacobian):
     """Solve ``cases[0]`` into ``results[0]``, and fill the jacobian, shape (6, 5). Return the strip count.
 
     ``cases[1]`` and ``results[1]`` are scratch. Without contact all derivatives are zero. If there is a tangent, the answer is

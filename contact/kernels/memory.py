@@ -17,11 +17,13 @@ from contact.kernels.arrays import (
     Search,
     Sheet,
     Size,
+    SolverArrays,
     Space,
     SurfaceSearch,
     Workspace,
 )
 from contact.kernels.block import cube, matrix, next_line, records, vector
+from contact.kernels.jacobian import COLUMNS, ROWS
 from contact.kernels.kalker import N_TABLE
 from contact.kernels.normal import factors
 from contact.kernels.normal.between_panels import PROBES
@@ -66,7 +68,7 @@ from contact.kernels.rows import (
     Strip,
     Tangent,
 )
-from contact.kernels.searches import ITERATION, ROOT
+from contact.kernels.searches import FORCE_SEARCH, ITERATION, ROOT
 from contact.kernels.tangential.lanes import LANES, N_LANE_ROWS, TRACE_WIDTH
 
 #: Rows of the derivatives of a pair, and what the forces of a patch are derived by (`pair_jacobian`).
@@ -159,6 +161,17 @@ def lay_strips_and_fields(block: Array, end: int, size: Size) -> tuple[Array, Ar
     strips, end = matrix(block, end, len(Strip), capacity)
     fields, end = cube(block, end, len(Field), capacity if size.with_fields else 1, size.n_elements)
     return strips, fields, end
+
+
+@shared
+def lay_solver(block: Array, end: int, size: Size, workspace: Workspace) -> tuple[SolverArrays, int]:
+    """Return the arrays of a contact that is solved again and again around its workspace, and the new end."""
+    case, end = records(block, end, 2, CASE)
+    result, end = records(block, end, 2, RESULT)
+    search, end = records(block, end, 1, FORCE_SEARCH)
+    row, end = cube(block, end, len(Field), 1, size.n_elements)
+    slopes, end = matrix(block, end, ROWS, COLUMNS)
+    return SolverArrays(workspace, case, result, search, row, slopes), end
 
 
 @shared

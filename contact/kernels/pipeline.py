@@ -244,7 +244,7 @@ def solve_cases(
     """Solve cases[first:last] one after the other. Return the strip count of the last one.
 
     Separation k is samples[bounds[k]:bounds[k+1]], and case c uses which[c]. The first case starts from the workspace's
-    memory, all others from nothing. Python calls it for single cases too.
+    memory, all others from nothing.
     """
     y, g, A, x_c, tilt = samples.y, samples.g, samples.A, samples.x_c, samples.tilt
     n = 0

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, field
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
@@ -17,8 +17,9 @@ from contact.inputs.creepage import Creepage
 from contact.kernels.records import TOTAL
 from contact.kernels.resultants import add_patch
 from contact.results import PairJacobian, Solution, Status
+from contact.results.later import MadeLater
 from contact.view.notebook import beside, table
-from contact.view.tables import Table, Tabular
+from contact.view.tables import Table
 
 
 @dataclass(frozen=True, slots=True)
@@ -115,7 +116,7 @@ class PairDamage(NamedTuple):
 
 
 @dataclass(frozen=True, eq=False)
-class PairSolution(Tabular):
+class PairSolution(MadeLater):
     """Action of one rail on the wheelset, in track coordinates. Its tables have a row for each patch.
 
     Attributes
@@ -160,35 +161,6 @@ class PairSolution(Tabular):
     spin: float = 0.0
     bend: float = 0.0
     jacobian: PairJacobian | None = field(default=None, repr=False)
-
-    @classmethod
-    def later(cls, numbers: dict[str, Any], make: Callable[..., dict[str, Any]], *left: Any) -> PairSolution:
-        """Return a solution with these attributes. `make` returns all other ones from what is left, when one is first read."""
-        solution = cls.__new__(cls)
-        solution.__dict__.update(numbers, _left=(make, left))
-        return solution
-
-    def __getattr__(self, name: str) -> Any:
-        held = self.__dict__
-        later = held.get("_left")
-        if later is not None:
-            make, left = later
-            held.update(make(*left))
-            held.pop("_left", None)  # last, because another thread may read the solution too
-        if name not in held:
-            raise AttributeError(f"{type(self).__name__!r} object has no attribute {name!r}")
-        return held[name]
-
-    def __dir__(self) -> list[str]:
-        return sorted({*super().__dir__(), *self.__dataclass_fields__} - {"_left"})
-
-    def __getstate__(self) -> dict[str, Any]:
-        if "_left" in self.__dict__:
-            self.__getattr__("force")
-        return dict(self.__dict__)
-
-    def __setstate__(self, state: dict[str, Any]) -> None:
-        self.__dict__.update(state)
 
     def _table(self) -> Table:
         names = "N", "Fx", "Fy", "Mx", "My", "Mz", "angle", "area", "max_pressure", "approach", "used_friction"

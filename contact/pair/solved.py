@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import struct
 from operator import itemgetter
 from typing import Any
 
@@ -12,10 +11,10 @@ from contact.inputs.creepage import Creepage
 from contact.kernels.arrays import PairArrays
 from contact.kernels.records import CONTACT, TOTAL
 from contact.pair.solution import Contact, PairDamage, PairSolution
-from contact.results import PairJacobian, Status
+from contact.results import PairJacobian
+from contact.results.later import STATES, reader
 from contact.results.solution import RENAMED
 
-_STATES = {int(status): status for status in Status}
 _NAMES = tuple(RENAMED.get(name, name) for name in TOTAL.names or ())
 _PLAIN = [name for name in _NAMES if name in PairSolution.__dataclass_fields__ and name not in ("status", "damage")]
 _PICK = itemgetter(*(_NAMES.index(name) for name in _PLAIN))
@@ -23,12 +22,7 @@ _STATUS = _NAMES.index("status")
 _DAMAGE = itemgetter(*(_NAMES.index(name) for name in PairDamage._fields))
 
 
-def _reader(dtype: np.dtype) -> struct.Struct:
-    """Return what reads a record as numbers of Python: numpy takes 2 µs for each member."""
-    return struct.Struct("".join("d" if dtype[name].kind == "f" else "q" for name in dtype.names or ()))
-
-
-_TOTAL, _CONTACT = _reader(TOTAL), _reader(CONTACT)
+_TOTAL, _CONTACT = reader(TOTAL), reader(CONTACT)
 _KEYS = CONTACT.names or ()
 
 
@@ -45,7 +39,7 @@ class Answer:
         y, z = self._deflection
         numbers = dict(zip(_PLAIN, _PICK(total), strict=True))
         numbers |= {
-            "status": _STATES[total[_STATUS]],
+            "status": STATES[total[_STATUS]],
             "deflection": (float(y[0]), float(z[0])),
             "spin": spin,
             "jacobian": jacobian,
@@ -80,7 +74,7 @@ def _contact(found: dict[str, Any]) -> Contact:
         on_rail=(found["rail_y"], found["rail_z"]),
         on_wheel=(found["wheel_y"], found["wheel_z"]),
         used_friction=found["used_friction"],
-        status=_STATES[found["status"]],
+        status=STATES[found["status"]],
         gap_error=found["gap_error"],
         pitch=found["pitch"],
     )

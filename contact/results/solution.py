@@ -5,8 +5,9 @@ from __future__ import annotations
 import copy
 import math
 import warnings
-from dataclasses import dataclass, field, fields
+from dataclasses import dataclass, field
 from functools import cached_property
+from operator import itemgetter
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -18,16 +19,17 @@ from contact.errors import only_with_fields
 from contact.inputs.creepage import Creepage
 from contact.inputs.material import Material
 from contact.inputs.plausibility import Usual, about_bend, about_gap
-from contact.kernels.arrays import Workspace
+from contact.kernels.arrays import SolverArrays
 from contact.kernels.enumerations import Status
 from contact.kernels.friction import of_case
 from contact.kernels.records import CASE, RESULT
 from contact.kernels.rows import Field, Strip
 from contact.registry import GAP_LIMIT, GAP_LIMIT_INTERACTING, methods
 from contact.results.jacobian import Jacobian
+from contact.results.later import STATES, MadeLater, reader
 from contact.results.pressure import pressure_at, sketch
 from contact.view.notebook import beside, table
-from contact.view.tables import Table, Tabular
+from contact.view.tables import Table
 
 Records = NDArray[np.void]
 
@@ -42,9 +44,15 @@ ANSWERS = {
 
 #: Member of the records RESULT and TOTAL → attribute of a solution, for the numbers that are called otherwise.
 RENAMED = {"pmax": "max_pressure", "power": "power_per_metre", "stiffness": "normal_stiffness"}
-_UNTOLD = "edges", "limited", "touch"
-#: Attribute of a solution → its place in the kernel's record or in the kernel's fields.
-_NUMBERS = {RENAMED.get(name, name): k for k, name in enumerate(RESULT.names or ()) if name not in _UNTOLD}
+_UNTOLD = "edges", "limited", "touch", "status"
+_MEMBERS = list(RESULT.names or ())
+#: Attributes of a solution that are members of the kernel's record, and what picks them from its numbers.
+_NAMES = [RENAMED.get(name, name) for name in _MEMBERS if name not in _UNTOLD]
+_PICK = itemgetter(*(k for k, name in enumerate(_MEMBERS) if name not in _UNTOLD))
+#: Reads the record as numbers. Where some of them are; the edges are the last ones.
+READ_RESULT = reader(RESULT).unpack_from
+STATUS, BEND_AT, GAP_ERROR, _EDGES = (_MEMBERS.index(name) for name in ("status", "bend", "gap_error", "edges"))
+#: Attribute of a solution → its row in the kernel's fields.
 _FIELDS = {"x": Field.X, "p": Field.P, "qx": Field.QX, "qy": Field.QY, "sx": Field.SX, "sy": Field.SY}
 
 
@@ -95,7 +103,7 @@ class Prepared(NamedTuple):
 
 @only_with_fields("qx", "qy", "sx", "sy", "stick")
 @dataclass(frozen=True, eq=False)
-class Solution(Tabular):
+class Solution(MadeLater):
     """Solved contact of one wheel-rail pair in the frame of its separation.
 
     Forces act on the wheel. x points in the rolling direction, y is lateral, z points along the common normal. Fields have
@@ -182,38 +190,25 @@ class Solution(Tabular):
     @classmethod
     def of_kernel(
         cls,
+        record: tuple[Any, ...],
         n: int,
-        workspace: Workspace,
-        numbers: tuple[Array, Array],
+        arrays: SolverArrays,
         creepage: Creepage,
         prepared: Prepared,
         jacobian: Jacobian | None = None,
     ) -> Solution:
-        """Return a solution from the workspace that a kernel has filled for `n` strips.
+        """Return a solution from the arrays that a kernel has filled for `n` strips; `record` are the numbers of the result.
 
-        `numbers` are the case and result records viewed as float64. The arrays are copied now; friction, strips and fields
-        are made from the copy when one of them is first read, which takes longer than the solution.
+        The arrays are copied now; friction, strips and fields are made from the copy when one of them is first read, which
+        takes longer than the solution.
         """
-        solution = cls.__new__(cls)
-        case, result = numbers
-        record = result.view(RESULT)[0].item()
-        held = solution.__dict__
-        held.update({name: record[k] for name, k in _NUMBERS.items()})
-        held.update(prepared._asdict(), status=Status(solution.status), creepage=creepage, jacobian=jacobian)
-        arrays = workspace.strips[:, :n].copy(), workspace.fields[:, :n].copy(), workspace.space.memory.copy()
-        held["_left"] = (case.copy(), record[-1][: 2 * solution.n_patches].copy(), *arrays)
-        return solution
-
-    def __getattr__(self, name: str) -> Any:
-        """Make friction, strips and fields from the kernel's arrays when one of them is first read."""
-        held = self.__dict__
-        left = held.get("_left")
-        if left is not None:
-            held.update(_arrays(*left))
-            held.pop("_left", None)  # last, because another thread may read the solution too
-        if name not in held:
-            raise AttributeError(f"{type(self).__name__!r} object has no attribute {name!r}")
-        return held[name]
+        numbers = dict(zip(_NAMES, _PICK(record), strict=True))
+        numbers["status"] = STATES[record[STATUS]]
+        numbers["creepage"], numbers["jacobian"] = creepage, jacobian
+        numbers["normal"], numbers["tangential"], numbers["material"], numbers["speed"] = prepared
+        space, edges = arrays.workspace, record[_EDGES : _EDGES + 2 * numbers["n_patches"]]
+        strips, fields = space.strips[:, :n].copy(), space.fields[:, :n].copy()
+        return cls.later(numbers, _arrays, arrays.case[0].tobytes(), edges, strips, fields, space.space.memory.copy())
 
     def __post_init__(self) -> None:
         """Make every array read-only and the owner of its memory."""
@@ -221,17 +216,13 @@ class Solution(Tabular):
 
     def __getstate__(self) -> dict[str, Any]:
         """Return the attributes for a copy or a pickle. The cached damage is left out and evaluated again."""
-        if "_left" in self.__dict__:
-            self.__getattr__("status")
-        return {name: value for name, value in self.__dict__.items() if name != "damage"}
+        state = super().__getstate__()
+        state.pop("damage", None)
+        return state
 
     def __setstate__(self, state: dict[str, Any]) -> None:
-        self.__dict__.update(state)
+        super().__setstate__(state)
         _own_all(self.__dict__)
-
-    def __dir__(self) -> list[str]:
-        """Return all names, those of arrays too that are made when they are first read."""
-        return sorted({*super().__dir__(), *(each.name for each in fields(self))} - {"_left"})
 
     def _table(self) -> Table:
         names = ("p", "qx", "qy", "sx", "sy", "stick", "dA") if self.has_fields else ("p", "dA")
@@ -325,13 +316,14 @@ class Solution(Tabular):
         return pressure_at(self, x, y)
 
 
-def _arrays(case: Array, edges: Array, strips: Array, fields: Array, memory: Array) -> dict[str, Any]:
-    """Return friction, strips and fields of a `Solution` from copies of a kernel's record and arrays."""
+def _arrays(case: bytes, edges: tuple[float, ...], strips: Array, fields: Array, memory: Array) -> dict[str, Any]:
+    """Return friction, strips and fields of a `Solution` from copies of a kernel's records and arrays."""
+    record = np.frombuffer(case, CASE)[0]
     y, dA = np.repeat(strips[Strip.Y][:, None], fields.shape[2], axis=1), fields[Field.DX] * strips[Strip.DY][:, None]
     stick, patch = fields[Field.STICK] > 0.5, strips[Strip.PATCH].astype(np.int64)
-    bent = case.view(CASE)[0].conformal != 0
+    bent = record.conformal != 0
     found = {
-        "friction": float(of_case(case.view(CASE)[0])),
+        "friction": float(of_case(record)),
         "strips": Strips(
             y=strips[Strip.Y],
             dy=strips[Strip.DY],
@@ -349,7 +341,7 @@ def _arrays(case: Array, edges: Array, strips: Array, fields: Array, memory: Arr
         "y": y,
         "stick": stick,
         "dA": dA,
-        "patch_edges": edges.reshape(-1, 2),
+        "patch_edges": np.array(edges).reshape(-1, 2),
         "memory": memory,
     }
     _own_all(found)

@@ -116,7 +116,7 @@ def test_end_strips_that_were_far_too_long_do_not_carry_the_load_of_the_next_ans
     (patch,) = pair.contacts(wheelset.Pose(y=6.6e-3, yaw=5e-3), load=9e4)
     solver = contact.Solver()
     cold = solver.forces(patch.separation, NO_CREEP, load=patch.load)
-    memory = solver._forces_only.space.memory
+    memory = solver.arrays.workspace.space.memory
     memory[MEM_LN_A : MEM_LN_A + 5] = np.log([0.9, 0.9, 0.27, 0.08, 0.025])
     warm = solver.forces(patch.separation, NO_CREEP, approach=cold.approach, warm=True)
     assert pytest.approx(cold.N, rel=5e-3) == warm.N

@@ -11,7 +11,7 @@ from typing import Any, NamedTuple
 
 from contact.core import arranging, group
 from contact.kernels import block, memory
-from contact.kernels.arrays import Samples, Workspace
+from contact.kernels.arrays import Samples, SolverArrays
 from contact.kernels.damage.assess import damage_kernel
 from contact.kernels.entries.layout import copy, fill, forget_forged, lay_out, size_of
 from contact.kernels.given_force import solve_under_force
@@ -19,7 +19,6 @@ from contact.kernels.jacobian import COLUMNS, ROWS, solve_with_jacobian
 from contact.kernels.pipeline import solve_case
 from contact.kernels.records import CASE, DAMAGE, DAMAGE_PARAMETERS, MAX_PATCHES, RESULT
 from contact.kernels.rows import DamageField
-from contact.kernels.searches import FORCE_SEARCH
 
 
 @group
@@ -27,9 +26,8 @@ class _Laid(NamedTuple):
     """All arrays in the caller's memory."""
 
     kept: Any
-    workspace: Workspace
+    solver: SolverArrays
     damage_fields: Any
-    searches: Any
 
 
 @arranging
@@ -40,16 +38,16 @@ def _lay(sizes, work, constants):
     trial, end = block.vector(work, end, memory.memory_size(size))
     workspace, at_strips, end = lay_out(work, end, trial, size, constants)
     damage_fields, end = block.cube(work, end, len(DamageField), MAX_PATCHES * size.n_strips, size.n_elements)
-    searches, end = block.records(work, end, 1, FORCE_SEARCH)
-    return _Laid(kept, workspace, damage_fields, searches), at_strips, end
+    solver, end = memory.lay_solver(work, end, size, workspace)
+    return _Laid(kept, solver, damage_fields), at_strips, end
 
 
 @arranging
 def _start(sizes, work, given):
     """Return all arrays. The next solution starts from the kept start."""
     a, _, _ = _lay(sizes, work, given.data)
-    copy(a.kept, a.workspace.space.memory)
-    forget_forged(a.workspace.space.memory)
+    copy(a.kept, a.solver.workspace.space.memory)
+    forget_forged(a.solver.workspace.space.memory)
     return a
 
 
@@ -78,9 +76,9 @@ def contact_strips(sizes, given):
 def contact_init(sizes, poisson_ratio, work, given):
     """Fill what depends only on resolution and material, and empty the warm start."""
     a, _, _ = _lay(sizes, work, given.data)
-    fill(a.workspace, poisson_ratio, given.data)
+    fill(a.solver.workspace, poisson_ratio, given.data)
     a.kept[:] = 0.0
-    a.workspace.space.memory[:] = 0.0
+    a.solver.workspace.space.memory[:] = 0.0
     return 0
 
 
@@ -88,11 +86,11 @@ def contact_solve(sizes, work, cold, n, y, g, A, x_c, tilt, case, result, given)
     """Solve one case from the kept start, or with `cold` from nothing. Return the number of strips."""
     a = _start(sizes, work, given)
     if cold != 0:
-        a.workspace.space.memory[0] = 0.0
+        a.solver.workspace.space.memory[0] = 0.0
     samples = _samples(n, y, g, A, x_c, tilt)
     cases, _ = block.records(case, 0, 1, CASE)
     results, _ = block.records(result, 0, 1, RESULT)
-    return solve_case(samples, cases, a.workspace, results)
+    return solve_case(samples, cases, a.solver.workspace, results)
 
 
 def contact_force(sizes, work, which, Fx, Fy, n, y, g, A, x_c, tilt, case, results, given):
@@ -101,7 +99,7 @@ def contact_force(sizes, work, which, Fx, Fy, n, y, g, A, x_c, tilt, case, resul
     samples = _samples(n, y, g, A, x_c, tilt)
     cases, _ = block.records(case, 0, 1, CASE)
     two_results, _ = block.records(results, 0, 2, RESULT)
-    return solve_under_force(samples, cases, a.workspace, two_results, a.searches, which, Fx, Fy)
+    return solve_under_force(samples, cases, a.solver.workspace, two_results, a.solver.search, which, Fx, Fy)
 
 
 def contact_derivatives(sizes, work, n, y, g, A, x_c, tilt, cases, results, jacobian, given):
@@ -111,13 +109,13 @@ def contact_derivatives(sizes, work, n, y, g, A, x_c, tilt, cases, results, jaco
     two_cases, _ = block.records(cases, 0, 2, CASE)
     two_results, _ = block.records(results, 0, 2, RESULT)
     matrix, _ = block.matrix(jacobian, 0, ROWS, COLUMNS)
-    return solve_with_jacobian(samples, two_cases, a.workspace, two_results, matrix)
+    return solve_with_jacobian(samples, two_cases, a.solver.workspace, two_results, matrix)
 
 
 def contact_accept(sizes, work, given):
     """Make what the last solution has left the start of the following ones."""
     a, _, _ = _lay(sizes, work, given.data)
-    copy(a.workspace.space.memory, a.kept)
+    copy(a.solver.workspace.space.memory, a.kept)
     return 0
 
 
@@ -125,7 +123,7 @@ def contact_forget(sizes, work, given):
     """Let the following solutions start from nothing."""
     a, _, _ = _lay(sizes, work, given.data)
     a.kept[:] = 0.0
-    a.workspace.space.memory[:] = 0.0
+    a.solver.workspace.space.memory[:] = 0.0
     return 0
 
 
@@ -136,7 +134,7 @@ def contact_damage(sizes, work, n, case, result, parameters, damage, given):
     results, _ = block.records(result, 0, 1, RESULT)
     constants, _ = block.records(parameters, 0, 1, DAMAGE_PARAMETERS)
     out, _ = block.records(damage, 0, 1, DAMAGE)
-    workspace = a.workspace
+    workspace = a.solver.workspace
     damage_kernel(workspace.strips, n, workspace.fields, cases[0], results[0], constants[0], a.damage_fields, out[0])
     return 0
 

@@ -17,7 +17,7 @@ import contact
 from contact.core import arranging, group
 from contact.damage import DamageParameters
 from contact.kernels import block, memory
-from contact.kernels.arrays import Samples, Workspace
+from contact.kernels.arrays import Samples, SolverArrays
 from contact.kernels.damage.assess import damage_kernel
 from contact.kernels.entries.layout import fill, forget_forged, lay_out
 from contact.kernels.enumerations import FrictionLaw, LoadKind
@@ -33,9 +33,10 @@ from contact.kernels.jacobian import (
     subtract_creepages,
 )
 from contact.kernels.pipeline import solve_case
-from contact.kernels.records import CASE, DAMAGE, DAMAGE_PARAMETERS, MAX_PATCHES, RESULT
+from contact.kernels.records import DAMAGE, DAMAGE_PARAMETERS, MAX_PATCHES, RESULT
 from contact.kernels.rows import DamageField, Field, Strip
 from contact.kernels.separation import HERTZIAN_POINTS, fill_hertzian
+from contact.kernels.solver import for_forces
 from ..tables.solver import SURFACE
 from ..tables.wheel_rail_contact import FLATTEST, GEOMETRY_KIND, LOAD_KIND, table
 from .component import places
@@ -89,17 +90,13 @@ _AT = places(_TABLE)
 class Arrays(NamedTuple):
     """All arrays in the working memory of an instance."""
 
-    workspace: Workspace
+    solver: SolverArrays
     samples: Samples
-    case: Any  # and a scratch one
-    result: Any  # and a scratch one
     damage_parameters: Any
     damage_fields: Any
     damage: Any
     count: Any  # number of strips
     shown: Any  # one field as the host sees it
-    row: Any  # a single row of fields, for forces alone
-    slopes: Any  # `contact.kernels.jacobian`
     derived: Any  # what the host sees of it: `components.CONTACT_DERIVATIVES`
 
 
@@ -113,18 +110,15 @@ def _lay(work, size, kept, data):
     A, end = block.vector(work, end, n)
     x_c, end = block.vector(work, end, n)
     tilt, end = block.vector(work, end, n)
-    case, end = block.records(work, end, 2, CASE)
-    result, end = block.records(work, end, 2, RESULT)
+    solver, end = memory.lay_solver(work, end, size, workspace)
     parameters, end = block.records(work, end, 1, DAMAGE_PARAMETERS)
     damage_fields, end = block.cube(work, end, len(DamageField), capacity, size.n_elements)
     damage, end = block.records(work, end, 1, DAMAGE)
     count, end = block.vector(work, end, 1)
-    row, end = block.cube(work, end, len(Field), 1, size.n_elements)
-    slopes, end = block.matrix(work, end, ROWS, COLUMNS)
     derived, at_shown = block.matrix(work, end, ROWS, COLUMNS + 1)
     shown, total = block.matrix(work, at_shown, capacity, size.n_elements)
     samples = Samples(y, g, A, x_c, tilt)
-    a = Arrays(workspace, samples, case, result, parameters, damage_fields, damage, count, shown, row, slopes, derived)
+    a = Arrays(solver, samples, parameters, damage_fields, damage, count, shown, derived)
     return a, (at_shown, end), total
 
 
@@ -148,8 +142,8 @@ def _values(values, given):
 @arranging
 def _pose(v, rows, a):
     """Fill samples and case from the values. Return the number of samples."""
-    at, sep, case = rows[0], a.samples, a.case[0]
-    _read_case(v, rows, a.case)
+    at, sep, case = rows[0], a.samples, a.solver.case[0]
+    _read_case(v, rows, a.solver.case)
     choose(int(v[at.method_normal]), int(v[at.method_tangential]), case)
     by_load = v[at.load_kind] == _NORMAL_FORCE
     case.load_kind = LoadKind.LOAD if by_load else LoadKind.APPROACH
@@ -176,8 +170,8 @@ def _pose(v, rows, a):
 @arranging
 def _report(v, rows, a):
     """Copy the results to the outputs."""
-    at, result = rows[0], a.result[0]
-    _write(v, rows, a.result, 0)
+    at, result = rows[0], a.solver.result[0]
+    _write(v, rows, a.solver.result, 0)
     _write_damage(v, rows, a.damage, 0)
     v[at.power_friction] = v[at.speed] * result.power
     v[at.slip_ratio] = result.slip_area / result.area if result.area > 0.0 else 0.0
@@ -214,17 +208,9 @@ def _difference(v, at, reference):
 @arranging
 def _solve(n, a):
     """Solve the case of `a` with its first `n` samples."""
-    forget_forged(a.workspace.space.memory)
-    a.count[0] = solve_case(_first(a.samples, n), a.case, a.workspace, a.result)
-
-
-@arranging
-def _for_forces(a):
-    """Return the workspace without room for fields, which would take most of the time, unless the forces need them."""
-    workspace, case = a.workspace, a.case[0]
-    if case.conformal != 0 or case.pressure_limit > 0.0:
-        return workspace
-    return Workspace(workspace.rule, workspace.tables, workspace.space, workspace.strips, a.row)
+    solver = a.solver
+    forget_forged(solver.workspace.space.memory)
+    a.count[0] = solve_case(_first(a.samples, n), solver.case, solver.workspace, solver.result)
 
 
 def entries() -> dict[str, Callable[..., Any]]:
@@ -253,7 +239,7 @@ def entries() -> dict[str, Callable[..., Any]]:
         v, rows = _values(values, given)
         at = rows[0]
         a, _, _ = arrange(v, at, work, given)
-        fill(a.workspace, v[at.material_poisson_ratio], given.data)
+        fill(a.solver.workspace, v[at.material_poisson_ratio], given.data)
         a.damage_parameters[0] = _DAMAGE_PARAMETERS[0]
         return 0
 
@@ -263,45 +249,45 @@ def entries() -> dict[str, Callable[..., Any]]:
         a, _, _ = arrange(v, at, work, given)
         _solve(_pose(v, rows, a), a)
         _read_damage(v, rows, a.damage_parameters)
-        workspace, parameters, n = a.workspace, a.damage_parameters[0], int(a.count[0])
+        workspace, case, result = a.solver.workspace, a.solver.case[0], a.solver.result[0]
+        parameters, n = a.damage_parameters[0], int(a.count[0])
         parameters.speed = v[at.speed]
-        damage_kernel(
-            workspace.strips, n, workspace.fields, a.case[0], a.result[0], parameters, a.damage_fields, a.damage[0]
-        )
+        damage_kernel(workspace.strips, n, workspace.fields, case, result, parameters, a.damage_fields, a.damage[0])
         _report(v, rows, a)
-        return a.result[0].status
+        return result.status
 
     def model_lazy(values, work, given):
         v, rows = _values(values, given)
         at = rows[0]
         a, _, _ = arrange(v, at, work, given)
-        sep, n = _first(a.samples, _pose(v, rows, a)), int(a.count[0])
-        a.slopes[:, :] = 0.0
+        sep, n, solver = _first(a.samples, _pose(v, rows, a)), int(a.count[0]), a.solver
+        solver.slopes[:, :] = 0.0
         if n > 0:
-            roll_creepages(sep, n, a.case, _for_forces(a), a.result, a.slopes)
-            subtract_creepages(a.case, a.result, a.slopes)
+            roll_creepages(sep, n, solver.case, for_forces(solver), solver.result, solver.slopes)
+            subtract_creepages(solver.case, solver.result, solver.slopes)
         for i in range(3):
             for j in range(3):
-                v[at.creep_stiffness + 3 * i + j] = a.slopes[i, j]
+                v[at.creep_stiffness + 3 * i + j] = solver.slopes[i, j]
         return 0
 
     def model_jacobian(values, work, given):
         v, rows = _values(values, given)
         at = rows[0]
         a, (_, begin), _ = arrange(v, at, work, given)
-        sep, n, case = _first(a.samples, _pose(v, rows, a)), int(a.count[0]), a.case[0]
-        a.slopes[:, :] = 0.0
+        sep, n, solver = _first(a.samples, _pose(v, rows, a)), int(a.count[0]), a.solver
+        case, slopes = solver.case[0], solver.slopes
+        slopes[:, :] = 0.0
         if n > 0:
-            n = derive_solved(sep, n, a.case, _for_forces(a), a.result, a.slopes)
+            n = derive_solved(sep, n, solver.case, for_forces(solver), solver.result, slopes)
         by_load = case.load_kind == LoadKind.LOAD
         for i in range(ROWS):
             scale = v[at.speed] if i == POWER else 1.0
             for j in range(AMOUNT):
-                a.derived[i, j] = scale * a.slopes[i, j]
-            amount = scale * a.slopes[i, AMOUNT] if n > 0 else math.nan  # contact may begin here
+                a.derived[i, j] = scale * slopes[i, j]
+            amount = scale * slopes[i, AMOUNT] if n > 0 else math.nan  # contact may begin here
             a.derived[i, AMOUNT], a.derived[i, AMOUNT + 1] = (amount, 0.0) if by_load else (0.0, amount)
             # the jacobian scales a law of friction as a whole
-            a.derived[i, MU + 1] = scale * a.slopes[i, MU] if case.law == FrictionLaw.COULOMB else math.nan
+            a.derived[i, MU + 1] = scale * slopes[i, MU] if case.law == FrictionLaw.COULOMB else math.nan
         return begin
 
     def model_difference(values, reference, given):
@@ -314,7 +300,9 @@ def entries() -> dict[str, Callable[..., Any]]:
         for i in range(a.shown.shape[0]):
             for j in range(a.shown.shape[1]):
                 a.shown[i, j] = (
-                    _element(a.workspace.strips, a.workspace.fields, fields[k], i, j) if i < a.count[0] else 0.0
+                    _element(a.solver.workspace.strips, a.solver.workspace.fields, fields[k], i, j)
+                    if i < a.count[0]
+                    else 0.0
                 )
         return begin
 
