@@ -9,6 +9,7 @@ member of an array of structures: `patch[1].area` …
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from enum import StrEnum
@@ -18,6 +19,7 @@ from typing import TypedDict, Unpack
 from contact.arrays import Array
 from contact.errors import require_number
 from contact.inputs.options import MEMBERS, Real, Whole
+from contact.kernels.records import MEANING
 
 
 class Causality(StrEnum):
@@ -106,6 +108,7 @@ class Variable:
     causality : Causality
     unit : str or tuple of str
         Key of `units.UNITS`, or one key for each element. Every Real has a unit ("1" if dimensionless), other types have none.
+        If it is not given, it is that of the `member`.
     start : number, str, or tuple of numbers
         Start value, for an enumeration the name of the item. Parameters and inputs need one. An output with a start is exact
         before initialisation; an output without a start is calculated.
@@ -138,7 +141,7 @@ class Variable:
     name: str
     description: str
     causality: Causality
-    unit: str | tuple[str, ...] = "1"
+    unit: str | tuple[str, ...] = ""
     start: float | str | tuple[float, ...] | None = None
     minimum: float = -math.inf
     maximum: float = math.inf
@@ -154,6 +157,10 @@ class Variable:
     twin_of: str = ""
     member: str = ""
     integral_of: tuple[str | None, str | None] | None = None
+
+    def __post_init__(self) -> None:
+        if not self.unit:
+            object.__setattr__(self, "unit", _unit_of(self.member))
 
     @property
     def is_given(self) -> bool:
@@ -358,6 +365,19 @@ def with_twins(rows: Sequence[Variable]) -> tuple[Variable, ...]:
         else:
             every.append(row)
     return tuple(every)
+
+
+#: Rotations per metre. FMI tells their unit from that of a curvature.
+_TURNING = ("case.phi", "case.rolling", "contact.spin")
+
+
+def _unit_of(member: str) -> str:
+    """Return the unit that the kernels state for a member of a record, as FMI writes it; "1" for none."""
+    if not member or member in _TURNING:
+        return "rad/m" if member else "1"
+    record, name = member.split(".")
+    found = re.search(r"\[(.+?)\]", MEANING[record][name])
+    return found[1].replace(" ", ".").replace("-", "1") if found else "1"
 
 
 def identifier(name: str) -> str:

@@ -10,7 +10,7 @@ from contact import Status, registry
 from contact.inputs.material import THERMAL_RANGE, Thermal
 from contact.inputs.options import HOT_FACTOR, N_ELEMENTS, N_STRIPS, TEMPERATURE, TEMPERATURE_RANGE
 from contact.results import BEND
-from ..variables import Attributes, Enumeration, Variable, of, output, parameter, taken
+from ..variables import Enumeration, Limits, Variable, of, output, parameter, taken
 
 NORMAL_METHOD = Enumeration("NormalMethod", tuple((m.name, m.title) for m in contact.methods().batched.normal.values()))
 TANGENTIAL_METHOD = Enumeration(
@@ -84,27 +84,24 @@ def _parameters() -> Iterable[Variable]:
         start=registry.DEFAULT_TANGENTIAL,
     )
     yield parameter(
-        "material.shear_modulus", "Combined shear modulus of wheel and rail", unit="Pa", nominal=1e11, **of("case", "G")
+        "material.shear_modulus", "Combined shear modulus of wheel and rail", nominal=1e11, **of("case", "G")
     )
     yield parameter("material.poisson_ratio", "Combined Poisson ratio of wheel and rail", **of("case", "nu"))
     yield parameter(
         "material.hardness",
         "Hardness of the softer body (wear)",
-        unit="Pa",
         nominal=1e9,
         **of("damage_parameters", "hardness"),
     )
     yield parameter(
         "material.shear_yield",
         "Yield stress in shear (fatigue and stress index)",
-        unit="Pa",
         nominal=1e8,
         **of("damage_parameters", "shear_yield"),
     )
     yield parameter(
         "material.pressure_limit",
         "Pressure limit of an elastic-perfectly plastic material; 0: no limit",
-        unit="Pa",
         start=0.0,
         minimum=0.0,
         nominal=1e9,
@@ -137,7 +134,6 @@ def _parameters() -> Iterable[Variable]:
     yield parameter(
         "friction.half_speed",
         "Sliding velocity at which friction is halfway from friction.coefficient to friction.kinetic",
-        unit="m/s",
         **of("case", "half_speed"),
     )
     yield parameter(
@@ -164,13 +160,11 @@ def _parameters() -> Iterable[Variable]:
     yield parameter(
         "friction.border",
         "Border of the gauge side, which is y below it: in the plane of the separation, or in the profile of either rail",
-        unit="m",
         **of("case", "border"),
     )
     yield parameter(
         "friction.border_width",
         "Width of the smooth transition at friction.border; negative: the gauge side is y above it",
-        unit="m",
         nominal=1e-3,
         **of("case", "border_width"),
     )
@@ -221,37 +215,37 @@ def _parameters() -> Iterable[Variable]:
 
 
 #: Name and member of each damage, its description and attributes.
-_DAMAGE: tuple[tuple[str, str, str, Attributes], ...] = (
-    ("T_gamma", "T_gamma", "Wear number |Fx ξ| + |Fy η|", {"unit": "N", "minimum": 0.0, "nominal": 100.0}),
+_DAMAGE: tuple[tuple[str, str, str, Limits], ...] = (
+    ("T_gamma", "T_gamma", "Wear number |Fx ξ| + |Fy η|", {"minimum": 0.0, "nominal": 100.0}),
     (
         *("wear_rate_pearce_sherratt", "pearce_sherratt", "Tread area worn off, Pearce and Sherratt"),
-        {"unit": "m2/m", "minimum": 0.0},
+        {"minimum": 0.0},
     ),
     ("index_burstow", "burstow", "Rolling contact fatigue index per axle pass, Burstow", {}),
     (
         *("wear_rate_usfd", "usfd", "Volume worn off a unit of contact area, Sheffield"),
-        {"unit": "m/m", "minimum": 0.0, "nominal": 1e-8},
+        {"minimum": 0.0, "nominal": 1e-8},
     ),
     (
         *("archard_depth_max", "archard_depth", "Greatest wear depth, Archard"),
-        {"unit": "m/m", "minimum": 0.0, "nominal": 1e-10},
+        {"minimum": 0.0, "nominal": 1e-10},
     ),
     (
         "archard_volume",
         "archard_volume",
         "Volume worn off, Archard",
-        {"unit": "m3/m", "minimum": 0.0, "nominal": 1e-12},
+        {"minimum": 0.0, "nominal": 1e-12},
     ),
     ("fatigue_index_surface", "fatigue_index", "Surface fatigue index, Ekberg", {}),
-    ("stress_index_max", "stress_index", "Greatest stress index |q| - k", {"unit": "Pa", "nominal": 1e8}),
-    ("energy_index_max", "energy_index", "Greatest energy index q.w", {"unit": "Pa", "nominal": 1e6}),
+    ("stress_index_max", "stress_index", "Greatest stress index |q| - k", {"nominal": 1e8}),
+    ("energy_index_max", "energy_index", "Greatest energy index q.w", {"nominal": 1e6}),
 )
 
 
 def damage(record: str) -> Iterable[Variable]:
     """Yield the outputs of the damage models, members of the record DAMAGE or TOTAL."""
     for name, member, description, attributes in _DAMAGE:
-        yield replace(output(f"damage.{name}", description, **attributes), member=f"{record}.{member}")
+        yield output(f"damage.{name}", description, member=f"{record}.{member}", **attributes)
 
 
 def status_and_totals(record: str, speed: str) -> Iterable[Variable]:
@@ -271,7 +265,6 @@ def bend(record: str, depends: tuple[str, ...] | None = None) -> Variable:
     return output(
         "bend",
         f"Largest change of the contact angle over the patches in one plane. Above {BEND:g} rad strips in a plane are doubtful",
-        unit="rad",
         minimum=0.0,
         nominal=0.1,
         depends=depends,

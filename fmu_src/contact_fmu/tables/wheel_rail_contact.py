@@ -111,7 +111,6 @@ def _parameters(points: int) -> Iterable[Variable]:
     yield parameter(
         "wheel.radius",
         "Rolling radius (damage per revolution)",
-        unit="m",
         start=RADIUS.usual,
         minimum=0.0,
         open_minimum=True,
@@ -154,7 +153,6 @@ def _inputs(points: int) -> Iterable[Variable]:
     yield signal(
         "geometry.rolling",
         "Rotation about y per metre rolled, cos(contact angle)/rolling radius, used when geometry.surface = Conformal",
-        unit="rad/m",
         **rolling,
         used=_CONFORMAL,
     )
@@ -167,14 +165,12 @@ def _inputs(points: int) -> Iterable[Variable]:
             minimum=0.0,
             used=_CURVATURES,
         )
-    for name, of_case, description, unit, nominal in (
-        ("longitudinal", "vx", "Longitudinal creepage", "1", 1e-3),
-        ("lateral", "vy", "Lateral creepage", "1", 1e-3),
-        ("spin", "phi", "Spin creepage", "rad/m", 0.1),
+    for name, of_case, description, nominal in (
+        ("longitudinal", "vx", "Longitudinal creepage", 1e-3),
+        ("lateral", "vy", "Lateral creepage", 1e-3),
+        ("spin", "phi", "Spin creepage", 0.1),
     ):
-        yield signal(
-            f"creepage.{name}", f"{description}, wheel minus rail", unit=unit, nominal=nominal, **of("case", of_case)
-        )
+        yield signal(f"creepage.{name}", f"{description}, wheel minus rail", nominal=nominal, **of("case", of_case))
     yield signal(
         "load.normal_force",
         f"Normal force, used when load.kind = NormalForce; {solver.NO_LOAD}",
@@ -195,7 +191,6 @@ def _inputs(points: int) -> Iterable[Variable]:
     yield signal(
         "speed",
         "Rolling speed; without speed-dependent friction it scales only rates; at standstill these are 0",
-        unit="m/s",
         nominal=10.0,
         **of("case", "speed"),
     )
@@ -203,32 +198,26 @@ def _inputs(points: int) -> Iterable[Variable]:
 
 
 def _outputs() -> Iterable[Variable]:
-    yield output("force.x", "Longitudinal creep force on the wheel", unit="N", nominal=1e4, member="result.Fx")
-    yield output("force.y", "Lateral creep force on the wheel", unit="N", nominal=1e4, member="result.Fy")
-    yield output(
-        "force.n", "Normal force", unit="N", minimum=0.0, nominal=1e5, depends=_NORMAL_PROBLEM, member="result.N"
-    )
-    yield output(
-        "moment.z", "Spin moment on the wheel about the origin of y", unit="N.m", nominal=100.0, member="result.Mz"
-    )
+    yield output("force.x", "Longitudinal creep force on the wheel", nominal=1e4, member="result.Fx")
+    yield output("force.y", "Lateral creep force on the wheel", nominal=1e4, member="result.Fy")
+    yield output("force.n", "Normal force", minimum=0.0, nominal=1e5, depends=_NORMAL_PROBLEM, member="result.N")
+    yield output("moment.z", "Spin moment on the wheel about the origin of y", nominal=100.0, member="result.Mz")
     yield output(
         "approach",
         "Rigid approach from first touch",
-        unit="m",
         nominal=1e-4,
         depends=_NORMAL_PROBLEM,
         member="result.approach",
     )
-    for name, of_result, description, unit, nominal in (
-        ("pressure.max", "pmax", "Greatest contact pressure", "Pa", 1e9),
-        ("patch.area", "area", "Contact area", "m2", 1e-4),
-        ("patch.length", "length", "Extent of the patch in the rolling direction", "m", 1e-2),
-        ("patch.width", "width", "Extent of the patch across", "m", 1e-2),
+    for name, of_result, description, nominal in (
+        ("pressure.max", "pmax", "Greatest contact pressure", 1e9),
+        ("patch.area", "area", "Contact area", 1e-4),
+        ("patch.length", "length", "Extent of the patch in the rolling direction", 1e-2),
+        ("patch.width", "width", "Extent of the patch across", 1e-2),
     ):
         yield output(
             name,
             description,
-            unit=unit,
             minimum=0.0,
             nominal=nominal,
             depends=_NORMAL_PROBLEM,
@@ -248,7 +237,6 @@ def _outputs() -> Iterable[Variable]:
     yield output(
         "stiffness.normal",
         "dN/d(approach)",
-        unit="N/m",
         minimum=0.0,
         nominal=1e9,
         depends=_NORMAL_PROBLEM,

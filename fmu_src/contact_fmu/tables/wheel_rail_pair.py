@@ -78,52 +78,51 @@ MOTION = (
     ("irregularity.roll_rate", "rad/s", "Rate of irregularity.roll"),
 )
 _AGAINST = "of the wheel against its wheelset, as its axle and web bend"
-#: Inputs in the order of the record WHEEL_OFFSET: name, unit, description.
+#: Inputs in the order of the record WHEEL_OFFSET: name, description.
 OFFSET = (
-    ("offset.x", "m", f"Longitudinal displacement {_AGAINST}: of its datum, on the axle at the tape circle"),
-    ("offset.y", "m", f"Lateral displacement {_AGAINST}"),
-    ("offset.z", "m", f"Vertical displacement {_AGAINST}, positive down"),
-    ("offset.roll", "rad", f"Roll {_AGAINST}"),
-    ("offset.pitch", "rad", f"Pitch {_AGAINST}; without effect on a wheel of revolution"),
-    ("offset.yaw", "rad", f"Yaw {_AGAINST}"),
-    ("offset.x_rate", "m/s", "Rate of offset.x"),
-    ("offset.y_rate", "m/s", "Rate of offset.y"),
-    ("offset.z_rate", "m/s", "Rate of offset.z"),
-    ("offset.roll_rate", "rad/s", "Rate of offset.roll"),
-    ("offset.pitch_rate", "rad/s", "Rate of offset.pitch; adds to velocity.spin"),
-    ("offset.yaw_rate", "rad/s", "Rate of offset.yaw"),
+    ("offset.x", f"Longitudinal displacement {_AGAINST}: of its datum, on the axle at the tape circle"),
+    ("offset.y", f"Lateral displacement {_AGAINST}"),
+    ("offset.z", f"Vertical displacement {_AGAINST}, positive down"),
+    ("offset.roll", f"Roll {_AGAINST}"),
+    ("offset.pitch", f"Pitch {_AGAINST}; without effect on a wheel of revolution"),
+    ("offset.yaw", f"Yaw {_AGAINST}"),
+    ("offset.x_rate", "Rate of offset.x"),
+    ("offset.y_rate", "Rate of offset.y"),
+    ("offset.z_rate", "Rate of offset.z"),
+    ("offset.roll_rate", "Rate of offset.roll"),
+    ("offset.pitch_rate", "Rate of offset.pitch; adds to velocity.spin"),
+    ("offset.yaw_rate", "Rate of offset.yaw"),
 )
 _SPEED = 20.0
 _STARTS = {"velocity.x": _SPEED, "velocity.spin": -_SPEED / RADIUS.usual}
 
-#: Outputs of a patch, the first members of the record CONTACT: name after `patch[k].`, unit, nominal, description.
+#: Outputs of a patch, the first members of the record CONTACT: name after `patch[k].`, nominal, description.
 PATCH = (
-    ("n", "N", 1e5, "Normal force"),
-    ("fx", "N", 1e4, "Longitudinal creep force on the wheel"),
-    ("fy", "N", 1e4, "Lateral creep force on the wheel, along the contact plane"),
-    ("mx", "N.m", 10.0, "Moment of the normal pressure about the longitudinal axis"),
-    ("my", "N.m", 10.0, "Moment of the normal pressure about the lateral axis"),
-    ("mz", "N.m", 100.0, "Spin moment on the wheel"),
-    ("x", "m", 1e-3, "Point of application of forces and moments, track coordinates, longitudinal"),
-    ("y", "m", 1.0, "Point of application of forces and moments, track coordinates, lateral"),
-    ("z", "m", 1e-2, "Point of application of forces and moments, track coordinates, vertical, positive down"),
-    ("angle", "rad", 0.1, "Contact angle; the contact frame is the track frame turned about x by this angle"),
-    ("area", "m2", 1e-4, "Contact area"),
-    ("pmax", "Pa", 1e9, "Greatest contact pressure"),
-    ("longitudinal", "1", 1e-3, "Longitudinal creepage, wheel minus rail"),
-    ("lateral", "1", 1e-3, "Lateral creepage, wheel minus rail"),
-    ("spin", "rad/m", 0.1, "Spin creepage, wheel minus rail"),
-    ("approach", "m", 1e-4, "Rigid approach from first touch, along the normal"),
-    ("rail_y", "m", 1e-2, "Contact position on the profile of the rail, lateral, positive to the field side"),
-    ("rail_z", "m", 1e-2, "Contact position on the profile of the rail, vertical, positive down"),
+    ("n", 1e5, "Normal force"),
+    ("fx", 1e4, "Longitudinal creep force on the wheel"),
+    ("fy", 1e4, "Lateral creep force on the wheel, along the contact plane"),
+    ("mx", 10.0, "Moment of the normal pressure about the longitudinal axis"),
+    ("my", 10.0, "Moment of the normal pressure about the lateral axis"),
+    ("mz", 100.0, "Spin moment on the wheel"),
+    ("x", 1e-3, "Point of application of forces and moments, track coordinates, longitudinal"),
+    ("y", 1.0, "Point of application of forces and moments, track coordinates, lateral"),
+    ("z", 1e-2, "Point of application of forces and moments, track coordinates, vertical, positive down"),
+    ("angle", 0.1, "Contact angle; the contact frame is the track frame turned about x by this angle"),
+    ("area", 1e-4, "Contact area"),
+    ("pmax", 1e9, "Greatest contact pressure"),
+    ("longitudinal", 1e-3, "Longitudinal creepage, wheel minus rail"),
+    ("lateral", 1e-3, "Lateral creepage, wheel minus rail"),
+    ("spin", 0.1, "Spin creepage, wheel minus rail"),
+    ("approach", 1e-4, "Rigid approach from first touch, along the normal"),
+    ("rail_y", 1e-2, "Contact position on the profile of the rail, lateral, positive to the field side"),
+    ("rail_z", 1e-2, "Contact position on the profile of the rail, vertical, positive down"),
     (
         "wheel_y",
-        "m",
         1e-2,
         "Contact position on the profile of the wheel, lateral from the tape circle, positive to the field side",
     ),
-    ("wheel_z", "m", 1e-2, "Contact position on the profile of the wheel, vertical, positive down"),
-    ("used_friction", "1", 0.1, "Creep force over normal force"),
+    ("wheel_z", 1e-2, "Contact position on the profile of the wheel, vertical, positive down"),
+    ("used_friction", 0.1, "Creep force over normal force"),
 )
 
 
@@ -154,9 +153,7 @@ def parameters(inclination: float) -> Iterable[Variable]:
     """Yield the parameters, which the FMU `Vehicle` has too. `inclination` is a default, as in `table`."""
     yield parameter("side", "Which wheel and rail; the left side is the mirror image", enumeration=SIDE, start="Right")
     yield parameter("load.kind", "How the load is given", enumeration=LOAD_KIND, start="NormalForce")
-    yield parameter(
-        "wheel.radius", "Nominal radius, at the tape circle", unit="m", **taken(RADIUS), member="motion.radius"
-    )
+    yield parameter("wheel.radius", "Nominal radius, at the tape circle", **taken(RADIUS), member="motion.radius")
     yield parameter("wheel.flange_back", "Distance between the backs of the flanges", unit="m", **taken(FLANGE_BACK))
     yield parameter("track.gauge", "Track gauge", unit="m", **taken(GAUGE))
     yield parameter(
@@ -188,7 +185,6 @@ def parameters(inclination: float) -> Iterable[Variable]:
     yield parameter(
         "patches.combine_distance",
         "Neighbouring patches closer than this share one plane",
-        unit="m",
         **taken(COMBINE_DISTANCE),
         nominal=1e-2,
         member="motion.combine_distance",
@@ -196,7 +192,6 @@ def parameters(inclination: float) -> Iterable[Variable]:
     yield parameter(
         "patches.combine_angle",
         "Neighbouring patches whose contact angles differ by less than this share one plane",
-        unit="rad",
         **taken(COMBINE_ANGLE),
         member="motion.combine_angle",
     )
@@ -221,7 +216,6 @@ def parameters(inclination: float) -> Iterable[Variable]:
     yield parameter(
         "accumulation.width",
         "Width of a bin",
-        unit="m",
         start=1e-3,
         minimum=1e-5,
         maximum=1e-2,
@@ -232,7 +226,6 @@ def parameters(inclination: float) -> Iterable[Variable]:
         yield parameter(
             f"rail.k{axis}",
             f"{way} stiffness of the springs under this rail, which has no mass; 0 is rigid",
-            unit="N/m",
             nominal=1e7,
             **of("elastic_rail", f"k{axis}"),
         )
@@ -240,14 +233,12 @@ def parameters(inclination: float) -> Iterable[Variable]:
         yield parameter(
             f"rail.preload_{axis}",
             f"{way} external force on the rail on springs",
-            unit="N",
             nominal=1e3,
             **of("elastic_rail", f"preload_{axis}"),
         )
     yield parameter(
         "reference_speed",
         "Speed below which creepages refer to it; there a wheel resists sliding like a damper, so an axle can stop and stand",
-        unit="m/s",
         **taken(REFERENCE_SPEED),
         member="motion.slowest",
     )
@@ -271,8 +262,8 @@ def inputs() -> Iterable[Variable]:
         used={"load.kind": ("NormalForce", "VerticalForce")},
     )
     yield signal("friction.coefficient", "Coefficient of friction", **of("case", "mu"))
-    for (name, unit, description), member in zip(OFFSET, WHEEL_OFFSET.names or (), strict=True):
-        yield signal(name, description, unit=unit, **of("wheel_offset", member))
+    for (name, description), member in zip(OFFSET, WHEEL_OFFSET.names or (), strict=True):
+        yield signal(name, description, **of("wheel_offset", member))
 
 
 def outputs() -> Iterable[Variable]:
@@ -281,7 +272,6 @@ def outputs() -> Iterable[Variable]:
         yield output(
             f"force.{axis}",
             f"Force on the wheel, track coordinates, {axis}",
-            unit="N",
             nominal=1e4,
             member=f"total.F{axis}",
         )
@@ -289,28 +279,22 @@ def outputs() -> Iterable[Variable]:
         yield output(
             f"moment.{axis}",
             f"Moment on the wheel about the wheelset's centre (0, pose.y, wheelset.z - wheel.radius), {axis}",
-            unit="N.m",
             nominal=1e4,
             member=f"total.M{axis}",
         )
     yield output(
         "wheelset.z",
         "Height pose.z of the solution: as given, or as found for the load",
-        unit="m",
         nominal=1e-3,
         member="total.z",
     )
-    yield output("pressure.max", "Greatest contact pressure", unit="Pa", minimum=0.0, nominal=1e9, member="total.pmax")
+    yield output("pressure.max", "Greatest contact pressure", minimum=0.0, nominal=1e9, member="total.pmax")
     yield output(
         "patches.count", "Number of patches", integer=True, minimum=0, maximum=PATCHES, member="total.n_patches"
     )
-    yield output(
-        "patches.area", "Contact area of all patches", unit="m2", minimum=0.0, nominal=1e-4, member="total.area"
-    )
-    for (name, unit, nominal, description), of_contact in zip(PATCH, CONTACT.names or (), strict=False):
-        yield output(
-            f"patch[].{name}", description, unit=unit, nominal=nominal, shape=(PATCHES,), member=f"contact.{of_contact}"
-        )
+    yield output("patches.area", "Contact area of all patches", minimum=0.0, nominal=1e-4, member="total.area")
+    for (name, nominal, description), of_contact in zip(PATCH, CONTACT.names or (), strict=False):
+        yield output(f"patch[].{name}", description, nominal=nominal, shape=(PATCHES,), member=f"contact.{of_contact}")
     yield output("slip.ratio", "Slip area over contact area", minimum=0.0, maximum=1.0)
     yield output("power.friction", "Frictional power", unit="W", minimum=0.0, nominal=1e3)
     yield from solver.damage("total")
@@ -318,13 +302,10 @@ def outputs() -> Iterable[Variable]:
     yield solver.total("distance", "Distance rolled since start, forwards and backwards", "m", (None, "velocity.x"))
     yield solver.total("T_gamma", "Wear number times distance since start", "J", ("damage.T_gamma", "velocity.x"))
     yield solver.gap_error("total")
-    yield output(
-        "wheel.Q", "Vertical force of the wheel on the rail, positive down", unit="N", nominal=1e5, member="total.Q"
-    )
+    yield output("wheel.Q", "Vertical force of the wheel on the rail, positive down", nominal=1e5, member="total.Q")
     yield output(
         "wheel.Y",
         "Lateral force of the wheel on the rail, positive outwards: flange contact",
-        unit="N",
         nominal=1e4,
         member="total.Y",
     )
@@ -341,7 +322,6 @@ def outputs() -> Iterable[Variable]:
         yield output(
             f"rail.deflection_{axis}",
             f"{way} deflection of the rail on springs, in balance",
-            unit="m",
             nominal=1e-3,
             member=f"elastic_rail.d{axis}",
         )

@@ -52,7 +52,6 @@ def _parameters() -> Iterable[Variable]:
     yield parameter(
         "surfaces.reach",
         "Distance before and behind the axle that is searched, doubled as long as the bodies come closer at its ends",
-        unit="m",
         **taken(REACH),
         nominal=0.1,
         member="motion.reach",
