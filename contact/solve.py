@@ -239,12 +239,17 @@ def require_layer(layer: object, tangential: Method) -> None:
 
 
 _Key = tuple[str, str, int, int, Material, bool, int, tuple[float, float, float] | None]
-#: The solvers that a thread has used last, and how many of them are kept.
-_LATEST, _MOST = threading.local(), 4
 
 
-def _solvers() -> dict[_Key, Solver]:
-    return _LATEST.__dict__.setdefault("solvers", {})
+class _Latest(threading.local):
+    """The solvers that a thread has used last."""
+
+    def __init__(self) -> None:
+        self.solvers: dict[_Key, Solver] = {}
+
+
+#: How many of them are kept.
+_LATEST, _MOST = _Latest(), 4
 
 
 def _lent(key: _Key) -> Solver:
@@ -252,7 +257,7 @@ def _lent(key: _Key) -> Solver:
 
     Until it is back, a signal handler that calls `solve` makes another one.
     """
-    solver = _solvers().pop(key, None)
+    solver = _LATEST.solvers.pop(key, None)
     if solver is None:
         normal, tangential, n_strips, n_elements, material, conformal, max_iterations, coefficients = key
         solver = Solver(
@@ -271,7 +276,7 @@ def _lent(key: _Key) -> Solver:
 
 def _back(key: _Key, solver: Solver) -> None:
     """Take back a solver that was lent."""
-    solvers = _solvers()
+    solvers = _LATEST.solvers
     solvers[key] = solver
     while len(solvers) > _MOST:
         del solvers[next(iter(solvers))]
