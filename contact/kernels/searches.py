@@ -58,6 +58,7 @@ ITERATION = record(
     approach        above first touch [m]
     error           sum of the residuals, weighted by the strips' loads
     load            sum of these weights
+    at_peak         residual of the panel with the largest pressure
     last_error      error over load of the last iteration
     moved           largest move of an end over the width of its panel
     left            what the mixing leaves of the step

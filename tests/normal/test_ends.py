@@ -83,9 +83,17 @@ def test_one_move_brings_an_end_most_of_the_way_whatever_the_number_of_strips(n,
 )
 def test_wide_idle_parts_between_loaded_strips_are_gaps(pressures, gap):
     cosines = -np.cos(np.arange(21) * math.pi / 20)
-    vectors = np.zeros((N_VECTOR_ROWS, 20))
-    vectors[Vector.P] = pressures
-    assert have_gap(20, 1, cosines, vectors) == gap
+    vectors, panels = np.zeros((N_VECTOR_ROWS, 20)), np.array([-1.0, 1.0])
+    vectors[Vector.P], vectors[Vector.A] = pressures, 1.0
+    assert have_gap(20, 1, panels, cosines, vectors) == gap
+
+
+@pytest.mark.parametrize(("length", "gap"), [(1.0, True), (8.0, False)])
+def test_a_thin_lobe_whose_strips_are_much_longer_than_the_idle_part_between_them_is_not_parted(length, gap):
+    cosines = -np.cos(np.arange(21) * math.pi / 20)
+    vectors, panels = np.zeros((N_VECTOR_ROWS, 20)), np.array([-1.0, 1.0])
+    vectors[Vector.P], vectors[Vector.A] = [1] * 8 + [0] * 4 + [1] * 8, length
+    assert have_gap(20, 1, panels, cosines, vectors) == gap
 
 
 def test_two_patches_that_began_as_one_panel_are_resolved_by_a_panel_each():

@@ -15,6 +15,9 @@ _PUNCH = 1.0
 SPUR = 1.2
 #: Third over fourth pressure up to which the peak lies away from the end, and from which on it lies at the end.
 _AWAY, _NEAR = 0.8, 1.1
+#: Second over third pressure from which on the pressures rise so much towards the end that the peak of a lobe lies there, and
+#: from which on that alone counts.
+_RISING, _LOBE = 1.1, 1.5
 #: Least number of strips of a panel that is read by groups of strips.
 _COARSEST = 20
 #: First over second pressure at the exact half width, its change over a width of the end strip, the curvature of this relation,
@@ -60,11 +63,13 @@ def _wanted(p0, p1, p2, p3):
     """Return how far an end should move outwards, in widths of the strip at the end, and the share of the first pressure.
 
     On the exact half width the squared ratio q of the second and third pressures has a known value. If the second pressure
-    is high, the panel is too narrow. Where the third pressure is not much below the fourth or above it, the peak lies at this
-    end, and q depends on its shape. There the ratio of the first two pressures counts instead.
+    is high, the panel is too narrow. Where the third pressure is not much below the fourth or above it, or the second one far
+    above the third, the peak lies at this end, and q depends on its shape. There the ratio of the first two pressures counts
+    instead.
     """
     wanted = ((p1 / p2) ** 2 - END_VALUE) / END_SLOPE
     share = min(max((p2 / p3 - _AWAY) / (_NEAR - _AWAY), 0.0), 1.0) if p3 > 0.0 else 1.0
+    share = max(share, min(max((p1 / p2 - _RISING) / (_LOBE - _RISING), 0.0), 1.0))
     if share > 0.0:
         share *= share * (3.0 - 2.0 * share)
         wanted = (1.0 - share) * wanted + share * _from_first_two(p0, p1)

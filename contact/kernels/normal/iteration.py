@@ -20,12 +20,13 @@ from contact.kernels.normal.brackets import damp_turns, keep_between, note_sides
 from contact.kernels.normal.descent import COARSE, descend, descend_offsets, has_one_run, straightening
 from contact.kernels.normal.ends import end_moves, have_idle_part, is_far
 from contact.kernels.normal.mixing import advance, mix
+from contact.kernels.normal.notes import note, note_event
 from contact.kernels.normal.panels import EARLY_GHOST, GHOST, extend_to_ghosts, start_panels
 from contact.kernels.normal.partition import cut_idle, have_gap, join_panels, part_panels, remove_unloaded
-from contact.kernels.normal.residuals import fill_residuals, find_pressures, is_stiff, stands_alone
+from contact.kernels.normal.residuals import AT_PEAK, fill_residuals, find_pressures, is_stiff, stands_alone
 from contact.kernels.normal.strip_system import edge_displacements
 from contact.kernels.normal.turned import turn_panels
-from contact.kernels.rows import Event, Iterate, Vector
+from contact.kernels.rows import Event, Vector
 
 #: Load-weighted mean change of ln a, and change of the ends over the width, at which the iteration stops, if the case does
 #: not say another one.
@@ -35,6 +36,9 @@ TOLERANCE = 1e-4
 LEFT, CLOSE = 4.0, 0.4
 #: Load-weighted mean change of ln a that counts as converged at the limit of iterations.
 ACCEPTABLE = 1e-3
+#: Iteration from which on skewed strips, up to 20 of a panel, are left at a load-weighted mean residual of CALM, wherever the
+#: ends go. More strips, and who asks for a smaller tolerance, wait until the ends are fixed.
+LATE, CALM = 12, 2e-3
 #: Iteration from which on the ends are fixed. At the corner of a punch and on rough gaps their rule has no steady solution.
 FREEZE = 16
 #: Iteration from which on the residuals are the steps, without mixing, which may go round in circles on rough gaps.
@@ -113,25 +117,6 @@ def begin_again(problem, state):
 
 
 @kernel
-def _note(problem, state, error, moved, approach, n_panels):
-    """Keep what an iteration found, for who wants to see it (`contact.view.trace`)."""
-    iterates, panels = problem.workspace.space.iterates, problem.panels
-    row = iterates[min(state.number, iterates.shape[0] - 1)]
-    row[Iterate.ERROR], row[Iterate.MOVED], row[Iterate.APPROACH] = error, moved, approach
-    row[Iterate.PANELS], row[Iterate.EVENTS] = n_panels, state.events
-    for k in range(2 * n_panels):
-        row[Iterate.ENDS + k] = panels[k]
-
-
-@kernel
-def _note_event(problem, state, event):
-    """Keep an event of this iteration, which changes the panels for the next one."""
-    iterates = problem.workspace.space.iterates
-    state.events += event
-    iterates[min(state.number, iterates.shape[0] - 1), Iterate.EVENTS] = state.events
-
-
-@kernel
 def _evaluate(problem, state):
     """Find pressures p, approach delta and residuals r of the present unknowns. Return whether they are finite numbers.
 
@@ -148,7 +133,7 @@ def _evaluate(problem, state):
     if not cut:
         edge_displacements(panels, state.n_panels, workspace, skewed, problem.unit)
     weight = straightening(n, state.stiff) if skewed else 0.0
-    state.error, state.load = fill_residuals(n, n * state.n_panels, state.approach, cut, skewed, weight, vectors)
+    fill_residuals(n, cut, skewed, weight, vectors, state)
     before = state.n_panels
     state.n_panels = remove_unloaded(n, before, panels, vectors)
     if state.n_panels == 0:
@@ -163,7 +148,7 @@ def _evaluate(problem, state):
     state.cut, state.anew = 1 if cut else 0, 1 if lost or age == FREEZE else 0
     state.events += (Event.CUT.value if cut else 0) + (Event.LOST.value if lost else 0)
     state.events += Event.FIXED.value if age == FREEZE else 0
-    _note(problem, state, state.error / state.load, state.moved, state.approach, state.n_panels)
+    note(problem, state, state.error / state.load, state.moved, state.approach, state.n_panels)
     return True
 
 
@@ -231,7 +216,7 @@ def _search(problem, state, least):
     )
     if found:
         state.found, state.mixed, state.best = 1, 0, math.inf
-        _note_event(problem, state, Event.FOUND.value)
+        note_event(problem, state, Event.FOUND.value)
         if state.n_panels > before:
             advance(workspace.rule.across.nodes.size, before, panels, vectors, problem.skew > 0.0)
     return found
@@ -249,12 +234,12 @@ def _part(problem, state):
         age >= (BRACKET if problem.skew > 0.0 else FREEZE)
         or state.cut != 0
         or state.parted == MOST_PARTED
-        or not have_gap(n, state.n_panels, workspace.rule.cosines, vectors)
+        or not have_gap(n, state.n_panels, panels, workspace.rule.cosines, vectors)
     ):
         return False
     state.n_panels = part_panels(n, state.n_panels, panels, workspace.rule.cosines, vectors)
     state.parted, state.mixed, state.best = state.parted + 1, 0, math.inf
-    _note_event(problem, state, Event.PARTED.value)
+    note_event(problem, state, Event.PARTED.value)
     return True
 
 
@@ -274,7 +259,7 @@ def _take(problem, state):
     state.n_panels, joined = join_panels(n, state.n_panels, panels, workspace.rule.cosines, vectors)
     if joined:
         state.mixed, state.best = 0, math.inf
-        _note_event(problem, state, Event.JOINED.value)
+        note_event(problem, state, Event.JOINED.value)
 
 
 @kernel
@@ -310,18 +295,21 @@ def accept(problem, state):
 
     With the load-weighted mean |r| of half lengths and offsets, the largest move m of an end over its width, and the
     tolerance ε, they are at rest if |r| < ε and m < 2ε. With steps by the Jacobian, whose error is a quarter of r, they are
-    if |r| and m < .4√ε and if the mixing leaves less than 4ε of the step, which is then taken. Skewed strips with fixed
-    ends, which come to rest slowly, are left at |r| < `ACCEPTABLE`.
+    if |r| and m < .4√ε and if the mixing leaves less than 4ε of the step, which is then taken. Skewed strips are left at
+    |r| < `CALM` from iteration `LATE` on, many of them at |r| < `ACCEPTABLE` with fixed ends. The panel with the largest
+    pressure must be at rest by itself.
     """
     age, error, moved, tolerance = state.number - state.begun, state.error, state.moved, problem.tolerance
     close = CLOSE * math.sqrt(tolerance)
     exact = state.cut == 0 and error < tolerance * state.load and moved < 2.0 * tolerance
     settled = state.descending != 0 and state.left < LEFT * tolerance and error < close * state.load and moved < close
-    calm = problem.skew > 0.0 and age >= FREEZE and state.cut == 0 and error < ACCEPTABLE * state.load and moved < close
+    few = problem.workspace.rule.across.nodes.size <= COARSE and tolerance >= TOLERANCE
+    calm = error < (CALM if few else ACCEPTABLE) * state.load and (few or moved < close)
+    calm = calm and problem.skew > 0.0 and age >= (LATE if few else FREEZE) and state.cut == 0
     state.found = 0
     if _part(problem, state):
         return False
-    if exact or settled or calm:
+    if (exact or settled or calm) and state.at_peak < AT_PEAK:
         if _swings(problem, state):
             _stiffen(state)
         elif not _search(problem, state, GHOST):
@@ -373,7 +361,7 @@ def step(problem, state):
     if state.warm != 0 and state.number == state.patience:
         _start_afresh(problem, state)
         state.events = Event.AGAIN.value
-    _note(problem, state, math.inf, 0.0, 0.0, 0)
+    note(problem, state, math.inf, 0.0, 0.0, 0)
     few = problem.workspace.rule.across.nodes.size <= COARSE  # more strips are straightened much already
     if problem.skew > 0.0 and few and state.stiff == 0 and state.number - state.begun == DAMPED:
         _stiffen(state)

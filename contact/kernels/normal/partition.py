@@ -11,6 +11,9 @@ NO_PANEL = 1e-5
 #: Width of idle strips between loaded ones, over that of the panel, from which on it is parted there, and the least number
 #: of loaded strips on either side.
 _GAP, _BESIDE = 0.1, 3
+#: The same width over the half length of the shorter strip beside it. A thin lobe, all of whose strips touch, has idle ones too
+#: before it comes to rest.
+_APART = 0.1
 
 
 @kernel
@@ -25,11 +28,13 @@ def cut_idle(n, n_panels, panels, cosines, vectors):
 
 
 @kernel
-def _widest_gap(n, cosines, pressures):
-    """Return the first and the last strip of the widest idle part between loaded strips of a panel; -1, -1 for none.
+def _widest_gap(p, n, panels, cosines, vectors):
+    """Return the first and the last strip of the widest idle part between loaded strips of panel p; -1, -1 for none.
 
-    At least `_BESIDE` loaded strips lie on either side of it.
+    At least `_BESIDE` loaded strips lie on either side of it. Strips are counted from the panel's first one.
     """
+    pressures, lengths = vectors[Vector.P, p * n : p * n + n], vectors[Vector.A, p * n : p * n + n]
+    panel_width = panels[2 * p + 1] - panels[2 * p]
     first, last, widest, before, total = -1, -1, _GAP, 0, 0
     for i in range(n):
         total += 1 if pressures[i] > 0.0 else 0
@@ -43,7 +48,8 @@ def _widest_gap(n, cosines, pressures):
         while k < n and not pressures[k] > 0.0:
             k += 1
         width = 0.5 * (cosines[k] - cosines[i])
-        if before >= _BESIDE and total - before >= _BESIDE and width > widest:
+        beside = before >= _BESIDE and total - before >= _BESIDE  # so there are strips i - 1 and k
+        if beside and width > widest and width * panel_width > _APART * min(lengths[i - 1], lengths[k]):
             first, last, widest = i, k - 1, width
         i = k
     return first, last
@@ -58,7 +64,7 @@ def part_panels(n, n_panels, panels, cosines, vectors):
     """
     known = n_panels
     for p in range(known):
-        first, last = _widest_gap(n, cosines, vectors[Vector.P, p * n : p * n + n])
+        first, last = _widest_gap(p, n, panels, cosines, vectors)
         if first < 0 or n_panels == MAX_PATCHES:
             continue
         low, high = panels[2 * p], panels[2 * p + 1]
@@ -77,10 +83,10 @@ def part_panels(n, n_panels, panels, cosines, vectors):
 
 
 @entry
-def have_gap(n: int, n_panels: int, cosines: Numbers, vectors: Matrix) -> bool:
+def have_gap(n: int, n_panels: int, panels: Numbers, cosines: Numbers, vectors: Matrix) -> bool:
     """Return whether a panel has a wide idle part between loaded strips, and there is room for one more panel."""
     for p in range(n_panels):
-        if _widest_gap(n, cosines, vectors[Vector.P, p * n : p * n + n])[0] > 0:
+        if _widest_gap(p, n, panels, cosines, vectors)[0] > 0:
             return n_panels < MAX_PATCHES
     return False
 

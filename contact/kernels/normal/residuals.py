@@ -11,6 +11,9 @@ from contact.kernels.rows import Vector
 
 #: Weight of straightening from which on it is stiff: the residuals themselves, as steps, would swing.
 _STIFF = 0.5
+#: Mean residual, weighted by pressures, in the panel with the largest pressure, from which on that panel is not at rest. It may
+#: carry so little load that the mean over all strips does not tell.
+AT_PEAK = 0.02
 #: Pressure of a strip over that of its neighbours, from which on it is no peak but swings, where offsets count in full.
 LONE = 2.0
 
@@ -80,20 +83,38 @@ def stands_alone(total, vectors):
 
 
 @kernel
+def _unrest_at_peak(n, n_panels, skewed, vectors):
+    """Return the mean residual of half lengths and offsets, weighted by pressures, in the panel with the largest pressure."""
+    highest, unrest = 0.0, 0.0
+    for p in range(n_panels):
+        top, pressures, residuals = 0.0, 0.0, 0.0
+        for i in range(p * n, p * n + n):
+            pressure = vectors[Vector.P, i]
+            top = max(top, pressure)
+            if pressure > 0.0 and 0 < i % n < n - 1:
+                residual = abs(vectors[Vector.R, i])
+                residual += abs(vectors[Vector.OFFSET_R, i]) / vectors[Vector.A, i] if skewed else 0.0
+                pressures, residuals = pressures + pressure, residuals + pressure * residual
+        if top > highest:
+            highest, unrest = top, residuals / pressures if pressures > 0.0 else 0.0
+    return unrest
+
+
+@kernel
 def is_stiff(straighten):
     """Return whether the offsets' residuals are steps already, with this weight of straightening."""
     return straighten > _STIFF
 
 
 @kernel
-def fill_residuals(n, total, delta, cut, skewed, straighten, vectors):
-    """Fill the residuals of all half lengths in Vector.R. Return the sum of their magnitudes, and of the strips' loads.
+def fill_residuals(n, cut, skewed, straighten, vectors, state):
+    """Fill the residuals of all half lengths in Vector.R. Set the sums of their magnitudes and of the strips' loads.
 
     A residual is the change of ln a that stretches a strip by the ratio of the overlap at its ends to that of a parabola.
     Both sums count the loads up to a factor. If idle strips are `cut` off, there are no residuals. If strips are `skewed`,
     their offsets have residuals too, the changes that close the gap at both ends alike.
     """
-    error, load = math.inf if cut else 0.0, 0.0
+    error, load, delta, total = math.inf if cut else 0.0, 0.0, state.approach, n * state.n_panels
     for i in range(total):
         vectors[Vector.R, i] = vectors[Vector.OFFSET_R, i] = 0.0
         weight = vectors[Vector.P, i] * vectors[Vector.A, i] * vectors[Vector.HALF, i]
@@ -114,4 +135,4 @@ def fill_residuals(n, total, delta, cut, skewed, straighten, vectors):
     if skewed and not cut and is_stiff(straighten):
         for p in range(total // n):
             error += _straighten(p * n, n, straighten, vectors)
-    return error, load
+    state.error, state.load, state.at_peak = error, load, _unrest_at_peak(n, state.n_panels, skewed, vectors)

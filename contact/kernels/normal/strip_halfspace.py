@@ -36,7 +36,7 @@ from contact.kernels.normal.iteration import (
 )
 from contact.kernels.normal.orientation import is_image, turn_back, turn_samples
 from contact.kernels.normal.peak import peak_between_strips
-from contact.kernels.normal.residuals import stands_alone
+from contact.kernels.normal.residuals import AT_PEAK, stands_alone
 from contact.kernels.normal.start import face, forget, recall, remember
 from contact.kernels.normal.turned import turn_aspects
 from contact.kernels.records import MAX_PATCHES
@@ -186,7 +186,7 @@ def _is_at_rest(problem, state):
     acceptable = max(CLOSE * math.sqrt(problem.tolerance), ACCEPTABLE) if skewed else ACCEPTABLE
     rough = _level_spurs(n, state.n_panels, vectors) or state.error > acceptable * state.load
     alone = problem.skew >= 1.0 and stands_alone(n * state.n_panels, vectors)
-    return not alone and (state.converged != 0 or not rough)
+    return not alone and state.at_peak < AT_PEAK and (state.converged != 0 or not rough)
 
 
 @kernel
@@ -234,7 +234,9 @@ def _solve(sep, case, workspace, result):
         forget(memory)
         return n_strips
     n_panels = state.n_panels
-    remember(n_panels if state.number - state.begun < FREEZE else 0, n, start_low, start_high, skew > 0.0, workspace)
+    left = state.last != 0 and state.converged == 0  # at CALM: no call starts from it
+    early = not left and state.number - state.begun < FREEZE
+    remember(n_panels if early else 0, n, start_low, start_high, skew > 0.0, workspace)
     count = _report(problem, state.approach, n_panels)
     result.pmax = peak_between_strips(sep, count, unit, workspace)
     if not rests and result.status != Status.OUT_OF_RANGE:
