@@ -78,10 +78,7 @@ def python_contacts(options: ContactOptions) -> list[Contact]:
     v = read("manchester")
     made: list[Contact] = []
     for side in SIDES * len(v.wheelsets):
-        pair = Pair(
-            profile.s1002(), profile.rail_60e1(), side=side, nominal_radius=v.radius, gauge=v.gauge,
-            gauge_point=v.gauge_point, flange_back=v.flange_back,
-        )  # fmt: skip
+        pair = Pair(profile.s1002(), profile.rail_60e1(), side=side, **v.sizes)
         made.append(
             InPython(
                 WheelRailPair(

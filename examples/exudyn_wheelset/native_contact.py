@@ -46,8 +46,8 @@ class NativeContact:
         y = WINDOW + SPACING * np.arange(POINTS)
         self._radius, self._speed = v.radius, given.speed(0.0)
         self._pair = Pair(
-            given.wheel, given.rail, side=side, nominal_radius=v.radius, gauge=v.gauge, gauge_point=v.gauge_point,
-            flange_back=v.flange_back, combine_distance=1.0, samples=y if side == "right" else -y[::-1],
+            given.wheel, given.rail, side=side, **v.sizes, combine_distance=1.0,
+            samples=y if side == "right" else -y[::-1],
         )  # fmt: skip
         description = fmpy.read_model_description(str(fmu))
         reference = {v.name: v.valueReference for v in description.modelVariables}

@@ -58,9 +58,7 @@ def run(amplitude: float, seconds: float) -> Run:
     opened = OpenVehicle(simulation)
     simulation.advance(STEP, round(SETTLING / STEP))
     result = Run(Histogram(wheel, radius=v.radius), Histogram(rail, radius=v.radius))
-    pair = Pair(
-        wheel, rail, nominal_radius=v.radius, gauge=v.gauge, gauge_point=v.gauge_point, flange_back=v.flange_back
-    )
+    pair = Pair(wheel, rail, **v.sizes)
     for _ in range(round(seconds / (EVERY * STEP))):
         simulation.advance(STEP, EVERY)
         right = opened.ask()[0].tolist()

@@ -102,10 +102,7 @@ def _on_rails(given: Scenario, whole: Table, its: vehicle.Starts) -> System:
         "method.tangential_integer": TANGENTIAL_METHOD.number(methods.tangential),
         "resolution.n_strips": methods.strips,
         "resolution.n_elements": methods.elements,
-        "wheel.radius": declared.radius,
-        "wheel.flange_back": declared.flange_back,
-        "track.gauge": declared.gauge,
-        "track.gauge_point": declared.gauge_point,
+        **vehicle.sizes(declared),
     }
     pair = wheel_rail_pair.table()
     names = [f"axle{axle}_{side}" for axle in range(1, len(declared.wheelsets) + 1) for side in SIDES]

@@ -100,12 +100,19 @@ def names(declared: VehicleDeclaration) -> list[str]:
     return [*(body.name for body in declared.bodies), *(axle.name for axle in declared.wheelsets)]
 
 
+def sizes(declared: VehicleDeclaration) -> dict[str, float]:
+    """Return parameter of the pair → the length that the vehicle gives it [m]."""
+    return {
+        "wheel.radius": declared.radius,
+        "wheel.flange_back": declared.flange_back,
+        "track.gauge": declared.gauge,
+        "track.gauge_point": declared.gauge_point,
+    }
+
+
 def _parameters(declared: VehicleDeclaration, inclination: float) -> Iterable[Variable]:
     """Yield the parameters. Those of the pair come first and have its value references, as the pair's entries read them."""
-    starts: dict[str, float | str] = {
-        "load.kind": "Position", "wheel.radius": declared.radius, "wheel.flange_back": declared.flange_back,
-        "track.gauge": declared.gauge, "track.gauge_point": declared.gauge_point,
-    }  # fmt: skip
+    starts: dict[str, float | str] = {"load.kind": "Position", **sizes(declared)}
     for row in wheel_rail_pair.parameters(inclination):
         yield replace(row, start=starts.get(row.name, row.start), tunable=False)  # tested only of one contact
     yield initial_distance()

@@ -6,7 +6,6 @@ import math
 from collections.abc import Callable, Iterable, Mapping
 from functools import reduce
 from operator import add
-from typing import Any
 
 import numpy as np
 
@@ -244,14 +243,11 @@ class Life:
 
     def _conicity(self) -> Array:
         first, amplitudes = self.plan.first.reprofiled(self.turned_off), self.plan.declared.amplitudes
-        p = first.vehicle
-        options: dict[str, Any] = {
-            "nominal_radius": p.radius, "gauge": p.gauge, "flange_back": p.flange_back, "gauge_point": p.gauge_point
-        }  # fmt: skip
         rows = []
         for right, left in self.axles.values():
             try:
-                found = conicity(right, first.rail, (*amplitudes, *_NONLINEARITY), left_wheel=left, **options).conicity
+                wanted_at = *amplitudes, *_NONLINEARITY
+                found = conicity(right, first.rail, wanted_at, left_wheel=left, **first.vehicle.sizes).conicity
             except ContactError:
                 rows.append([math.nan] * (len(amplitudes) + 1))
                 continue

@@ -85,12 +85,9 @@ class Stability:
     @cached_property
     def conicities(self) -> tuple[float, ...]:
         """Equivalent conicity of the scenario's wheel and rail at the amplitudes `CONICITY_AT`; empty if it has none."""
-        p = self._scenario.vehicle
-        options: dict[str, Any] = {"nominal_radius": p.radius, "gauge": p.gauge, "flange_back": p.flange_back}
+        given = self._scenario
         try:
-            found = conicity(
-                self._scenario.wheel, self._scenario.rail, CONICITY_AT, gauge_point=p.gauge_point, **options
-            )
+            found = conicity(given.wheel, given.rail, CONICITY_AT, **given.vehicle.sizes)
         except ContactError:
             return ()
         return tuple(found.conicity.tolist())

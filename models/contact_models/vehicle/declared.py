@@ -6,7 +6,7 @@ import math
 from dataclasses import dataclass, fields, replace
 from os import PathLike
 from pathlib import Path
-from typing import TypeVar
+from typing import Any, TypeVar
 
 from contact.errors import ContactError, require_number, suggestion
 from contact.geometry.wheelset import Side
@@ -251,6 +251,12 @@ class VehicleDeclaration:
                     raise ContactError(f"between = {name!r} is no body{suggestion(name, names)}")
         if not any("x" in body.held for body in self.bodies):
             raise ContactError("bodies: none of them has held = ['x'], so nothing keeps the speed")
+
+    @property
+    def sizes(self) -> dict[str, Any]:
+        """Lengths of its wheels on their rails [m], by the names of `contact.geometry.wheelset.Pair`."""
+        names = "gauge", "gauge_point", "flange_back"
+        return {"nominal_radius": self.radius, **{name: getattr(self, name) for name in names}}
 
     def reprofiled(self, cut: float) -> VehicleDeclaration:
         """Return the vehicle with wheels whose radius is smaller by `cut` [m], on which all else stands lower. Masses stay."""

@@ -206,15 +206,7 @@ class Simulation(OwnsArrays):
         return found
 
     def _sizes(self, side: str) -> dict[str, Any]:
-        v = self.vehicle
-        return {
-            "side": side,
-            "nominal_radius": v.radius,
-            "gauge": v.gauge,
-            "gauge_point": v.gauge_point,
-            "flange_back": v.flange_back,
-            "reference_speed": self._options.reference_speed,
-        }
+        return {"side": side, **self.vehicle.sizes, "reference_speed": self._options.reference_speed}
 
     def _solver(self, pair: Pair | SurfacePair, ledger: Ledger | None = None) -> WheelRailPair:
         o = self._options

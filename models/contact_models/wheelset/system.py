@@ -54,16 +54,7 @@ def at_start(made: Simulation) -> dict[str, float]:
 
 def pair(given: Scenario, side: Side) -> Pair:
     """Return the geometry of one wheel of a scenario on its rail."""
-    v = given.vehicle
-    return Pair(
-        given.wheel,
-        given.rail,
-        side=side,
-        nominal_radius=v.radius,
-        gauge=v.gauge,
-        gauge_point=v.gauge_point,
-        flange_back=v.flange_back,
-    )
+    return Pair(given.wheel, given.rail, side=side, **given.vehicle.sizes)
 
 
 def python_contacts(given: Scenario) -> list[InPython]:
