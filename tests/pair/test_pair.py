@@ -17,16 +17,6 @@ METHODS = contact.methods().batched
 
 
 @pytest.fixture(scope="module")
-def right():
-    return make()
-
-
-@pytest.fixture(scope="module")
-def left():
-    return make("left")
-
-
-@pytest.fixture(scope="module")
 def worn():
     return make(rail=WORN)
 

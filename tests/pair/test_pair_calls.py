@@ -15,16 +15,6 @@ from contact.pair import WheelRailPair
 from tests.pair.made import RAIL, WHEEL, WORN, make, random_motion
 
 
-@pytest.fixture(scope="module")
-def right():
-    return make()
-
-
-@pytest.fixture(scope="module")
-def left():
-    return make("left")
-
-
 @pytest.mark.parametrize("side", ["left", "right"])
 @pytest.mark.parametrize("seed", range(4))
 def test_what_engineers_plot_is_that_of_forces_and_profiles(side, seed):

@@ -1,5 +1,6 @@
 """FMUs as a user gets them: built by the command and driven by fmpy."""
 
+import itertools
 import os
 import re
 import shutil
@@ -113,27 +114,24 @@ def native_wheelset(native) -> Path:
 
 
 @pytest.fixture
-def open_native(native_folder):
-    """Return a function that instantiates the native WheelRailContact. All instances are freed at the end."""
-    yield from _opened(lambda kind: Instance(native_folder, kind=kind))
+def freed():
+    """Return a function that returns an instance, which is freed at the end."""
+    instances = []
+    yield lambda instance: instances.append(instance) or instance
+    for instance in instances:
+        instance.free()
 
 
 @pytest.fixture
-def open_native_fmi3(native_fmi3_folder):
+def open_native(native_folder, freed):
+    """Return a function that instantiates the native WheelRailContact."""
+    return lambda kind="CoSimulation": freed(Instance(native_folder, kind=kind))
+
+
+@pytest.fixture
+def open_native_fmi3(native_fmi3_folder, freed):
     """Return a function that instantiates the native WheelRailContact of FMI 3.0."""
-    yield from _opened(lambda kind: Instance3(native_fmi3_folder, kind=kind))
-
-
-def _opened(make):
-    instances = []
-
-    def open_one(kind: str = "CoSimulation", **given):
-        instances.append(make(kind, **given))
-        return instances[-1]
-
-    yield open_one
-    for instance in instances:
-        instance.free()
+    return lambda kind="CoSimulation": freed(Instance3(native_fmi3_folder, kind=kind))
 
 
 @pytest.fixture(scope="session")
@@ -196,23 +194,19 @@ def open_pair(pair_file, open_fmu, native_pair):
 
 
 @pytest.fixture
-def native_pair(native, unzipped):
+def native_pair(native, unzipped, freed):
     """Return a function that instantiates the native WheelRailPair, or that of another file."""
     file = native.with_name(f"{PAIR}.fmu")
-    yield from _opened(lambda kind, path=file: Instance(unzipped(path), kind=kind))
+    return lambda kind="CoSimulation", path=file: freed(Instance(unzipped(path), kind=kind))
 
 
 @pytest.fixture
-def open_fmu(fmus, tmp_path):
-    """Return a function that instantiates an FMU by name. All instances are freed at the end."""
-    instances = []
+def open_fmu(fmus, tmp_path, freed):
+    """Return a function that instantiates an FMU by name."""
+    number = itertools.count()
 
     def open_fmu(name: str, folder: str = "", path: Path | None = None) -> Instance:
-        directory = tmp_path / folder / f"{name}-{len(instances)}"
-        fmpy.extract(str(path or fmus / f"{name}.fmu"), str(directory))
-        instances.append(Instance(directory))
-        return instances[-1]
+        directory = tmp_path / folder / f"{name}-{next(number)}"
+        return freed(Instance(fmpy.extract(str(path or fmus / f"{name}.fmu"), str(directory))))
 
-    yield open_fmu
-    for instance in instances:
-        instance.fmu.freeInstance()
+    return open_fmu

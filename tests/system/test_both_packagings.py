@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Callable
+from functools import partial
 from typing import NamedTuple
 
 import pytest
@@ -49,27 +50,16 @@ def open_contact(request, packaging):
     """Return a function that instantiates WheelRailContact in each packaging."""
     if packaging == "native":
         return request.getfixturevalue("open_native")
-    opened = request.getfixturevalue("open_fmu")
-    return lambda: opened(NAME)
+    return partial(request.getfixturevalue("open_fmu"), NAME)
 
 
 @pytest.fixture
-def open_wheelset(request, packaging, unzipped):
+def open_wheelset(request, packaging, unzipped, freed):
     """Return a function that instantiates Wheelset in each packaging."""
     if packaging == "python":
-        opened = request.getfixturevalue("open_fmu")
-        yield lambda: opened("Wheelset")
-        return
+        return partial(request.getfixturevalue("open_fmu"), "Wheelset")
     folder = unzipped(request.getfixturevalue("native_wheelset"))
-    instances = []
-
-    def native():
-        instances.append(Instance(folder))
-        return instances[-1]
-
-    yield native
-    for instance in instances:
-        instance.free()
+    return lambda: freed(Instance(folder))
 
 
 @pytest.fixture(params=["contact", "wheelset"])

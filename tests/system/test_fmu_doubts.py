@@ -1,6 +1,5 @@
 """FMUs tell what Python warns of: values that no wheel on a rail has, once for each instance and rule, in both packagings."""
 
-import fmpy
 import pytest
 from fmu_instance import WARNING, Instance
 from fmu_instance_fmi3 import Instance3
@@ -25,18 +24,10 @@ PAIR = [
 
 
 @pytest.fixture(params=["python", "native"])
-def opened(request, fmus, native, tmp_path):
+def opened(request, fmus, native, open_fmu):
     """Return a function that instantiates an FMU of each packaging."""
-    made = []
-
-    def opened(name: str) -> Instance:
-        path = (fmus if request.param == "python" else native.parent) / f"{name}.fmu"
-        made.append(Instance(fmpy.extract(str(path), str(tmp_path / f"{len(made)}"))))
-        return made[-1]
-
-    yield opened
-    for instance in made:
-        instance.free()
+    folder = fmus if request.param == "python" else native.parent
+    return lambda name: open_fmu(name, path=folder / f"{name}.fmu")
 
 
 def warned(instance: Instance) -> list[str]:

@@ -2,9 +2,7 @@
 
 import math
 from contextlib import suppress
-from pathlib import Path
 
-import fmpy
 import pytest
 from fmpy.fmi1 import FMICallException
 from fmu_instance import DISCARD, Instance, refused
@@ -30,22 +28,18 @@ CHOICES = [
 
 
 @pytest.fixture(params=["native", "python"])
-def make(request, native, unzipped, fmus, tmp_path):
+def make(request, native, unzipped, open_fmu, freed):
     """Return a function that instantiates an FMU by name, with parameters, before its initialisation."""
-    made = []
 
     def make(name: str, parameters: dict | None = None) -> Instance:
         if request.param == "native":
-            directory = unzipped(native.with_name(f"{name}.fmu"))
+            made = freed(Instance(unzipped(native.with_name(f"{name}.fmu"))))
         else:
-            directory = Path(fmpy.extract(str(fmus / f"{name}.fmu"), str(tmp_path / f"{name}-{len(made)}")))
-        made.append(Instance(directory))
-        made[-1].update(parameters or {})
-        return made[-1]
+            made = open_fmu(name)
+        made.update(parameters or {})
+        return made
 
-    yield make
-    for instance in made:
-        instance.free()
+    return make
 
 
 def inputs(name: str) -> list:

@@ -121,17 +121,10 @@ def test_bins_stay_zero_when_nothing_accumulates(open_pair):
 
 
 @pytest.fixture
-def open_pair_fmi3(native_fmi3, unzipped):
+def open_pair_fmi3(native_fmi3, unzipped, freed):
     """Return a function that instantiates the native FMU of FMI 3.0."""
-    instances = []
-
-    def open_pair_fmi3(kind: str = "CoSimulation") -> Instance3:
-        instances.append(Instance3(unzipped(native_fmi3.with_name(f"{NAME}.fmu")), kind=kind))
-        return instances[-1]
-
-    yield open_pair_fmi3
-    for instance in instances:
-        instance.free()
+    folder = unzipped(native_fmi3.with_name(f"{NAME}.fmu"))
+    return lambda kind="CoSimulation": freed(Instance3(folder, kind=kind))
 
 
 def test_arrays_of_fmi3_are_the_bins(open_pair_fmi3, native_pair):

@@ -21,18 +21,15 @@ def file(request):
 
 
 @pytest.fixture
-def open_wheelset(file, unzipped):
-    """Return a function that instantiates the FMU. All instances are freed at the end."""
-    instances = []
+def open_wheelset(file, unzipped, freed):
+    """Return a function that instantiates the FMU."""
 
     def open_wheelset(**start: float) -> Instance:
-        instances.append(Instance(unzipped(file)))
-        instances[-1].update({name.replace("__", "."): value for name, value in start.items()})
-        return instances[-1]
+        instance = freed(Instance(unzipped(file)))
+        instance.update({name.replace("__", "."): value for name, value in start.items()})
+        return instance
 
-    yield open_wheelset
-    for instance in instances:
-        instance.fmu.freeInstance()
+    return open_wheelset
 
 
 def reported(opened: OpenVehicle, whole) -> dict[str, float]:

@@ -74,20 +74,16 @@ def folders(native_surfaces, tmp_path_factory) -> list[Path]:
 
 
 @pytest.fixture
-def open_fmu(folders):
-    """Return a function that instantiates the FMU with other resources. All instances are freed at the end."""
-    instances = []
+def open_fmu(folders, freed):
+    """Return a function that instantiates the FMU with other resources."""
 
     def open_fmu(new: dict[str, bytes], version: int = 2, kind: str = "CoSimulation"):
         folder = folders[version - 2]
         for name, content in new.items():
             (folder / "resources" / name).write_bytes(content)
-        instances.append(Instance(folder, kind=kind) if version == 2 else Instance3(folder, kind=kind))
-        return instances[-1]
+        return freed((Instance if version == 2 else Instance3)(folder, kind=kind))
 
-    yield open_fmu
-    for instance in instances:
-        instance.free()
+    return open_fmu
 
 
 def part(values: dict[str, float], name: str, *fields: str) -> list[float]:

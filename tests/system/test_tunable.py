@@ -1,5 +1,7 @@
 """Tunable parameters: friction and material may change during a run, between steps or in event mode."""
 
+from functools import partial
+
 import fmpy
 import numpy as np
 import pytest
@@ -27,8 +29,7 @@ GROUPS = {"friction", "material", "thermal"}
 def open_contact(request):
     """Return a function that instantiates the FMU in each packaging and version of FMI."""
     if request.param == "python":
-        opened = request.getfixturevalue("open_fmu")
-        return lambda: opened(NAME)
+        return partial(request.getfixturevalue("open_fmu"), NAME)
     return request.getfixturevalue("open_native" if request.param == "fmi2" else "open_native_fmi3")
 
 

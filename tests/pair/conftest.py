@@ -1,0 +1,15 @@
+"""Pairs that several modules solve."""
+
+import pytest
+
+from tests.pair.made import make
+
+
+@pytest.fixture(scope="module")
+def right():
+    return make()
+
+
+@pytest.fixture(scope="module")
+def left():
+    return make("left")
