@@ -92,7 +92,7 @@ FIRST: dict[str, First] = {
             ),
             Example(
                 {"pose.y": 5e-3},
-                {"wheel.Q": 8.084e4, "wheel.Y": 5597.0, "force.x": 2.102e4},
+                {"wheel.Q": 8.084e4, "wheel.Y": 5596.0, "force.x": 2.102e4},
                 "5 mm to the right: the wheel rolls on a larger radius and is pushed forward",
             ),
         ),
