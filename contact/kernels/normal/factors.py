@@ -199,6 +199,7 @@ def set_factors(panels, n_panels, skew, table, n, vectors):
         shear = math.asinh(abs(_slope(first, n, vectors)) * half / longest)
         at = _place(shear * (1.0 / _SHEAR_STEP), 0.0, _N_SHEARS - 2.0)
         m, w0, w1, w2, w3 = _place((math.log(longest / half) - _LOW) * (1.0 / _STEP), 1.0, _N_RATIOS - 2.0)
-        for k, weight in enumerate((w0, w1, w2, w3)):
+        for k in range(4):  # by comparisons, as the index of a tuple could raise
+            weight = w0 if k == 0 else w1 if k == 1 else w2 if k == 2 else w3
             begin = (m - 1 + k) * _N_SHEARS
             _add_ratio(share * weight, table[begin : begin + _N_SHEARS], at, first, n, vectors)
