@@ -242,3 +242,14 @@ def test_every_page_that_a_source_names_exists():
         if name not in pages
     }
     assert named == set()
+
+
+def test_no_kernel_indexes_a_tuple_by_enumerate_or_zip():
+    """Such an index could raise, which plain C code of the kernels keeps: then no native FMU is built, minutes later."""
+    calls = {
+        f"{path.relative_to(ROOT)}:{node.lineno}"
+        for path in sources("contact/kernels")
+        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8")))
+        if isinstance(node, ast.Call) and isinstance(node.func, ast.Name) and node.func.id in ("enumerate", "zip")
+    }
+    assert calls == set()
