@@ -1,4 +1,4 @@
-"""Derivatives of forces against differences, and their price (docs/derivatives.md).
+"""Derivatives of forces against differences, and their price (docs/check/derivatives.md).
 
 python -m benchmarks.derivatives [--cases 300] [--pairs 60] [--out kinks.png]
 

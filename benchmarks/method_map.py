@@ -3,9 +3,9 @@
 python -m benchmarks.method_map [--contacts 500] [--write docs] [--exact FILE]
 
 A contact is the most loaded patch of a random pose of S1002 on 60E1 (1:40), at its own spin and random creepages. The reference
-is the element-wise half space, which agrees with CONTACT to 6e-6 of friction times load (docs/halfspace.md). Its error falls
-with the size of the elements, so its forces are extrapolated from two grids, both finer than any that is shown. `--exact`
-keeps its answers in a .npy file, or takes them from it.
+is the element-wise half space, which agrees with CONTACT to 6e-6 of friction times load (docs/check/halfspace.md). Its error
+falls with the size of the elements, so its forces are extrapolated from two grids, both finer than any that is shown.
+`--exact` keeps its answers in a .npy file, or takes them from it.
 """
 
 from __future__ import annotations

@@ -230,7 +230,7 @@ class Solver(OwnsArrays):
             Start from the last solution. For interacting strips this changes the computing time, and the result within
             the method's tolerance.
         derivatives : bool
-            Also find `Solution.jacobian`. Where its strips have no tangent (docs/derivatives.md) the solution is iterated
+            Also find `Solution.jacobian`. Where its strips have no tangent (docs/check/derivatives.md) the solution is iterated
             further, and differs within the method's tolerance.
         throw : bool
             As in `contact.solve`.

@@ -97,7 +97,7 @@ class Arrays(NamedTuple):
     damage: Any
     count: Any  # number of strips
     shown: Any  # one field as the host sees it
-    derived: Any  # what the host sees of it: `components.CONTACT_DERIVATIVES`
+    derived: Any  # what the host sees of it: `components.CONTACT_DERIVED`
 
 
 @arranging
