@@ -176,7 +176,7 @@ def _slope(first, n, vectors):
         weight = vectors[Vector.P, i] * vectors[Vector.A, i] * vectors[Vector.HALF, i]
         away = vectors[Vector.Y, i] - y
         square, product = square + weight * away * away, product + weight * away * (vectors[Vector.XC, i] - x)
-    return product / square if square > 0.0 else 0.0
+    return product / max(square, 1e-300)  # of one loaded strip 0/0, which would be a trap
 
 
 @kernel

@@ -96,7 +96,7 @@ def _unrest_at_peak(n, n_panels, skewed, vectors):
                 residual += abs(vectors[Vector.OFFSET_R, i]) / vectors[Vector.A, i] if skewed else 0.0
                 pressures, residuals = pressures + pressure, residuals + pressure * residual
         if top > highest:
-            highest, unrest = top, residuals / pressures if pressures > 0.0 else 0.0
+            highest, unrest = top, residuals / max(pressures, 1e-300)  # 0 where only end strips are loaded
     return unrest
 
 
