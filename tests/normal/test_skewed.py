@@ -167,6 +167,15 @@ def test_a_narrow_lobe_with_the_largest_pressure_comes_to_rest_by_itself(y, yaw,
     assert strips.max_pressure == pytest.approx(elements.max_pressure, rel=0.02)
 
 
+def test_many_strips_put_no_spike_at_the_end_of_a_lobe():
+    """With 60 strips an end was fixed inside the contact: 1.5 times the pressure, and the status was OK."""
+    pair = wheelset.Pair(profile.named("EPS"), profile.named("50E1", inclination=1 / 40))
+    pose = wheelset.Pose(y=5.2807e-3, yaw=29.731e-3, roll=4.038e-3)
+    (patch,) = (p for p in pair.contacts(pose, load=81690.0) if p.load)
+    few, many = (contact.solve(patch.separation, NO_CREEP, load=patch.load, n_strips=n) for n in (20, 60))
+    assert many.max_pressure == pytest.approx(few.max_pressure, rel=0.02)
+
+
 @pytest.mark.parametrize(
     ("wheel", "rail", "slope", "y", "yaw", "roll", "load"),
     [

@@ -16,6 +16,9 @@ _STIFF = 0.5
 AT_PEAK = 0.02
 #: Pressure of a strip over that of its neighbours, from which on it is no peak but swings, where offsets count in full.
 LONE = 2.0
+#: A pressure is a spike of an end that was fixed inside the contact if at most this share of the strips lies beyond, and if the
+#: pressures inwards fall to this share of it and rise again to so much over that.
+_AT_END, _FALLEN, _RISEN = 0.12, 0.5, 1.5
 
 
 @kernel
@@ -80,6 +83,28 @@ def stands_alone(total, vectors):
     before = vectors[Vector.P, top - 1] if top > 0 else 0.0
     after = vectors[Vector.P, top + 1] if top < total - 1 else 0.0
     return vectors[Vector.P, top] > LONE * max(before, after)
+
+
+@kernel
+def is_spike_at_end(n, n_panels, vectors):
+    """Return whether the largest pressure lies among the strips at an end of a panel, falls far inwards, and rises again."""
+    top = 0
+    for i in range(n * n_panels):
+        top = i if vectors[Vector.P, i] > vectors[Vector.P, top] else top
+    first, highest = top - top % n, vectors[Vector.P, top]
+    for step in (1, -1):
+        i, beyond, lowest = top - step, 0, highest
+        while first <= i < first + n:
+            beyond += 1 if vectors[Vector.P, i] > 0.0 else 0
+            i -= step
+        i = top if beyond <= _AT_END * n else first - 1
+        while first <= i < first + n:
+            pressure = vectors[Vector.P, i]
+            lowest = min(lowest, pressure)
+            if lowest < _FALLEN * highest and pressure > _RISEN * lowest:
+                return True
+            i += step
+    return False
 
 
 @kernel

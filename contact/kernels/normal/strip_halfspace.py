@@ -22,6 +22,7 @@ from contact.core import kernel
 from contact.kernels.cubic import locate
 from contact.kernels.enumerations import LoadKind, Status
 from contact.kernels.normal.analyn import analyn, prepare
+from contact.kernels.normal.descent import COARSE
 from contact.kernels.normal.ends import SPUR
 from contact.kernels.normal.iteration import (
     ACCEPTABLE,
@@ -36,7 +37,7 @@ from contact.kernels.normal.iteration import (
 )
 from contact.kernels.normal.orientation import is_image, turn_back, turn_samples
 from contact.kernels.normal.peak import peak_between_strips
-from contact.kernels.normal.residuals import AT_PEAK, stands_alone
+from contact.kernels.normal.residuals import AT_PEAK, is_spike_at_end, stands_alone
 from contact.kernels.normal.start import face, forget, recall, remember
 from contact.kernels.normal.turned import turn_aspects
 from contact.kernels.records import MAX_PATCHES
@@ -222,7 +223,9 @@ def _solve(sep, case, workspace, result):
     state = space.iteration[0]
     begin(problem, n_panels, case.max_iterations, state)
     usable, rests = _iterate(problem, state, case.max_iterations)
-    if not rests and state.load > 0.0 and state.error < math.inf and case.max_iterations >= MAX_ITERATIONS:
+    # panels of many strips more often have ends that are fixed before they arrive
+    spike = rests and skew > 0.0 and n > COARSE and is_spike_at_end(n, state.n_panels, space.vectors)
+    if (spike or not rests) and state.load > 0.0 and state.error < math.inf and case.max_iterations >= MAX_ITERATIONS:
         begin_again(problem, state)
         usable, rests = _iterate(problem, state, case.max_iterations)
 
