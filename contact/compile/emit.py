@@ -239,7 +239,9 @@ def refuse_the_rest(module: Any) -> None:
     needed = {f.name for f in module.functions if f.is_declaration and not f.name.startswith("llvm.")}
     needed |= {g.name for g in module.global_variables if g.is_declaration and not g.name.startswith(DATA)}
     needed |= {g.name for g in module.global_variables if g.name.startswith(_REFUSED)}
-    if needed - ALLOWED:
+    if refused := needed - ALLOWED:
+        users = [f.name for f in module.functions if not f.is_declaration and any(name in str(f) for name in refused)]
         raise RuntimeError(
-            f"the kernels need symbols that the library may not have: {', '.join(sorted(needed - ALLOWED))}"
+            f"the kernels need symbols that the library may not have: {', '.join(sorted(refused))}. They stand in "
+            f"{', '.join(users)}, or in what was compiled into it; a symbol with pickle in its name is an error of Python"
         )

@@ -1,8 +1,9 @@
 """Build the library of all kernels: ``python -m contact.compile.library FOLDER [--added | --systems]``.
 
-It writes kernels.o for this machine, with the entries of Python and of the C interface, and where there is a linker the library
-beside it. With ``--added`` these also have those functions that other packages add for Python (`Added`). With ``--systems`` it
-writes kernels.bc, which has all that they add, and what `objects` makes of it for all systems. `linking` then links that.
+It writes kernels.bc, the kernels before LLVM optimises them, and kernels.o for this machine, with the entries of Python and of
+the C interface, and where there is a linker the library beside it. With ``--added`` these also have those functions that other
+packages add for Python (`Added`). With ``--systems`` kernels.bc has all that they add, and instead of kernels.o there is what
+`objects` makes of it for all systems. `linking` then links that.
 
 It imports all modules that have entries (`contact.core.entry`). `contact.core.checkout` starts it, with settings of numba.
 """
@@ -185,6 +186,8 @@ def main() -> None:
     kernels = Kernels(lambda one: for_systems or (for_python and one.python))
     module, names = kernels.module()
     data = emit.data_as_ir(kernels.data)
+    code = module.as_bitcode()
+    (folder / "kernels.bc").write_bytes(code)  # for the explorer, and for the test that all kernels can become C
     if not for_systems:
         from llvmlite import binding as llvm
 
@@ -195,8 +198,6 @@ def main() -> None:
     from contact.compile import objects
 
     write_declarations(folder, tuple(f"_{suffix}" for suffix in (*objects.CPUS, objects.IN_C)))
-    code = module.as_bitcode()
-    (folder / "kernels.bc").write_bytes(code)  # for the explorer
     in_c: dict[str, list[str]] = {}
     for one in kernels.added:
         in_c.setdefault(one.file, []).append(one.name)

@@ -58,21 +58,31 @@ def write(
     """
     with ProcessPoolExecutor(os.cpu_count(), get_context("spawn")) as pool:
         of_data = pool.submit(_write_data, data, folder)
-        plain = pool.submit(_plain, code, names).result()
+        plain = pool.submit(without_vectors, code, names).result()
         parts = [pool.submit(_write_kernels, plain, names, exported, suffix, folder) for suffix in CPUS]
         parts += [pool.submit(_write_c, plain, entries, folder / name) for name, entries in in_c.items()]
         for part in (of_data, *parts):
             part.result()
 
 
-def _plain(code: bytes, names: Sequence[str]) -> bytes:
+def without_vectors(code: bytes, names: Sequence[str]) -> bytes:
     """Return these entries optimised for all processors, without vectors, as bitcode."""
     return bytes(optimised(only(_llvm().parse_bitcode(code), names), PLAIN, vectors=False).as_bitcode())
 
 
+def in_c(plain: bytes, names: Sequence[str]) -> str:
+    """Return these entries and what they call as C.
+
+    Raises
+    ------
+    RuntimeError, ValueError
+        If a kernel needs Python, for example to raise an error, or has what cannot be written as C.
+    """
+    return as_c(str(_named(only(_llvm().parse_bitcode(plain), names), names, IN_C)))
+
+
 def _write_c(plain: bytes, names: Sequence[str], path: Path) -> None:
-    module = _named(only(_llvm().parse_bitcode(plain), names), names, IN_C)
-    path.write_text(as_c(str(module)), encoding="utf-8")
+    path.write_text(in_c(plain, names), encoding="utf-8")
 
 
 def _write_data(text: str, folder: Path) -> None:
