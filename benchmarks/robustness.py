@@ -3,10 +3,15 @@
     python benchmarks/robustness.py [--cases 100000] [--seed 1]
 
 Every case is solved with `contact.forces`, one in fifty again with `contact.solve`, which also returns fields and iterations.
-No case may raise, return NaN or violate a post-condition. The tables show the margins of the worst case.
+No case may raise, return NaN or violate a post-condition. The tables show the margins of the worst case, and how often what was
+warned of: each of `contact.forces` speaks once for all its cases.
 """
 
 from __future__ import annotations
+
+import re
+import warnings
+from collections import Counter
 
 import contact
 from benchmarks.tables import read_options, table
@@ -17,7 +22,12 @@ def report(cases: int, seed: int) -> str:
     """Return tables of statuses and worst margins as Markdown."""
     pairs = random_cases.method_pairs()
     share = -(-cases // len(pairs))
-    results = {p: random_cases.run(*p, share, seed + k, share // 50) for k, p in enumerate(pairs)}
+    results, warned = {}, {}
+    for k, pair in enumerate(pairs):
+        with warnings.catch_warnings(record=True) as seen:
+            warnings.simplefilter("always")
+            results[pair] = random_cases.run(*pair, share, seed + k, share // 50)
+        warned[pair] = Counter(re.split(r"\[| =", str(one.message))[0] for one in seen)
     names = [f"`{n}` + `{t}`" for n, t in pairs]
     first = table(
         ["methods", "cases", *(s.name for s in contact.Status), "most iterations (cap)"],
@@ -47,7 +57,17 @@ def report(cases: int, seed: int) -> str:
             if r["statuses"][contact.Status.NOT_CONVERGED]
         ],
     )
-    return f"{first}\nWorst of all cases:\n\n{second}\nNot converged, by kind of separation:\n\n{third}"
+    kinds = sorted({kind for counted in warned.values() for kind in counted})
+    fourth = table(
+        ["methods", *(f"`{kind}`" for kind in kinds)],
+        [[name, *(str(counted[kind]) for kind in kinds)] for name, counted in zip(names, warned.values(), strict=True)],
+    )
+    return "\n".join(
+        (
+            *(first, "Worst of all cases:\n", second, "Not converged, by kind of separation:\n", third),
+            *("Warnings, by what they name:\n", fourth),
+        )
+    )
 
 
 def main() -> None:

@@ -58,7 +58,7 @@ def test_a_series_of_a_track_has_decimal_commas_and_needs_no_heading(tmp_path):
     for head in ("distance;alignment;vertical;cross_level;gauge\n", ""):
         body = "\n".join(";".join(f"{value:.4f}" for value in row) for row in rows).replace(".", ",")
         path.write_text(head + body, encoding="utf-16")
-        np.testing.assert_allclose(Measured(file=str(path))._rows(), rows)
+        np.testing.assert_allclose(Measured(file=str(path))._rows, rows)
 
 
 @pytest.mark.parametrize("encoding", ENCODINGS)

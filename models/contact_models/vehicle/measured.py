@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
@@ -53,7 +54,7 @@ class Measured:
     @property
     def resolution(self) -> float:
         """Least distance of the stations [m]."""
-        return float(np.diff(self._rows()[:, 0]).min())
+        return float(np.diff(self._rows[:, 0]).min())
 
     def require_covered(self, end: float) -> None:
         """Check that the stations cover the run from its start to `end` [m].
@@ -63,7 +64,7 @@ class Measured:
         ContactError
             If they do not. The message has both intervals.
         """
-        first, last = np.sort(self._rows()[[0, -1], 0]).tolist()
+        first, last = np.sort(self._rows[[0, -1], 0]).tolist()
         begin, to = self.start, self.start + (end if self.direction == "rising" else -end)
         if first <= min(begin, to) and max(begin, to) <= last:
             return
@@ -97,7 +98,7 @@ class Measured:
 
     def _along(self) -> Array:
         """Return the rows in SI units over the distance of the run."""
-        rows = self._rows()
+        rows = self._rows
         if self._in_mm(rows):
             rows = rows * np.array([1.0, 1e-3, 1e-3, 1e-3 / RAIL_DISTANCE, 1e-3])
         self._require_sizes(rows)
@@ -136,8 +137,9 @@ class Measured:
                 f"file = {self.file!r}: the mean of gauge is {mean:.4g} m; give its deviation, the gauge minus the nominal one"
             )
 
+    @cached_property
     def _rows(self) -> Array:
-        """Return the rows of the file, in its units: stations and channels."""
+        """The rows of the file, in its units: stations and channels."""
         rows = table(self.file, "file").values
         if not (np.abs(rows) < _FARTHEST).all():
             raise ContactError(f"file = {self.file!r}: a distance or a value is not within {_FARTHEST:g}")
