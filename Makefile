@@ -39,10 +39,11 @@ test: $(READY)   ## run the tests
 	$(BIN)/python -m pytest -n 2 --dist worksteal
 
 check: $(READY)  ## run the quick tests (a minute once the library is built)
+	$(BIN)/python -c 'import contact; contact.get_library()'
 	$(BIN)/python -m pytest -n 2 --dist worksteal -m "not slow"
 
 coverage: $(READY) ## run the quick tests and print which lines of the package no test runs (kernels are compiled: not seen)
-	$(BIN)/python -c 'import contact.core.library as library; library.get_library()'
+	$(BIN)/python -c 'import contact; contact.get_library()'
 	$(BIN)/python -m coverage run --source contact,contact_fmu,contact_models --omit '*/kernels/*' -m pytest -m "not slow"
 	$(BIN)/python -m coverage report --skip-covered --show-missing
 
@@ -55,7 +56,7 @@ bounds: $(READY) ## run the tests of the kernels with numba's check of array bou
 	CONTACT_JIT=1 NUMBA_BOUNDSCHECK=1 $(BIN)/python -m pytest -n 2 --dist worksteal $(KERNELS)
 
 traps: $(READY)  ## run the same tests with floating-point traps
-	$(BIN)/python -c 'import contact.core.library as library; library.get_library()'
+	$(BIN)/python -c 'import contact; contact.get_library()'
 	$(BIN)/python -m pytest -p tests.traps $(KERNELS)
 
 SYSTEMS := linux64 aarch64-linux win64 darwin64 aarch64-darwin

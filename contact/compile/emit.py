@@ -119,9 +119,12 @@ def share_overloads() -> None:
     dispatcher._DispatcherBase.get_call_template = get_call_template  # type: ignore[method-assign, assignment]
 
 
-def modules_of(libraries: Iterable[Any]) -> Iterator[Any]:
-    """Yield the LLVM modules of numba's libraries and of all that they link, directly or not, each once."""
-    pending, seen = list(libraries), set()
+def modules_of(libraries: Iterable[Any], without: Iterable[Any] = ()) -> Iterator[Any]:
+    """Yield the LLVM modules of numba's libraries and of all that they link, directly or not, each once.
+
+    Libraries of functions that are elsewhere are left out, with what only these link.
+    """
+    pending, seen = list(libraries), set(map(id, without))
     while pending:
         library = pending.pop()
         if id(library) not in seen:
@@ -140,12 +143,16 @@ def data_as_ir(data: Sequence[Any]) -> str:
 
 
 class Emission:
-    """Entries that numba compiles, which become one LLVM module. All read the same constant arrays `data`."""
+    """Entries that numba compiles, which become one LLVM module. All read the same constant arrays `data`.
 
-    def __init__(self, data: Sequence[Any]) -> None:
-        self.data = data
+    The functions `elsewhere` are in a module of the same process that is linked with this one.
+    """
+
+    def __init__(self, data: Sequence[Any], elsewhere: Sequence[Any] = ()) -> None:
+        self.data, self.elsewhere = data, elsewhere
         self.names: list[str] = []
         self._libraries: list[Any] = []
+        self._offered: list[Any] = []
         self._glue = [
             f"@{DATA}{i} = external hidden constant [{array.nbytes} x i8], align 64" for i, array in enumerate(data)
         ]
@@ -191,24 +198,40 @@ class Emission:
         self._libraries.append(made._library)
         return str(made.native_name).removeprefix("cfunc.")
 
-    def module(self) -> Any:
-        """Return the module. Only the entries can be seen from outside."""
+    def offer(self, kernel: Any) -> list[Any]:
+        """Let other modules call a kernel in this one. Return the functions that numba has made of it so far."""
+        functions = list(kernel.overloads.values())
+        self._offered += functions
+        return functions
+
+    def module(self, exported: Iterable[str] = ()) -> Any:
+        """Return the module; it can be made once. Only entries and what is offered can be seen from outside.
+
+        Of these only those that are `exported` can be seen from outside the library.
+        """
         from llvmlite import binding as llvm
 
-        module = _whole(self._libraries)
+        module = _whole(self._libraries, (function.library for function in self.elsewhere))
         module.link_in(llvm.parse_assembly("\n".join(self._glue)))
-        visible = set(self.names)
+        hidden = {*self.names, *_symbols(self._offered)}.difference(exported)
         for i, symbol in enumerate((*module.functions, *module.global_variables)):
-            if symbol.name not in visible and not symbol.is_declaration:
+            if symbol.name in hidden:
+                symbol.linkage, symbol.visibility = "external", "hidden"
+            elif not symbol.is_declaration and symbol.name not in self.names:
                 symbol.linkage = "internal"
                 if not symbol.name.startswith(_REFUSED):
                     symbol.name = f"{_readable(symbol.name)}.{i}"
         return module
 
 
-def _whole(libraries: Iterable[Any]) -> Any:
+def _symbols(functions: Iterable[Any]) -> set[str]:
+    """Return the names of functions that numba has made in LLVM's modules."""
+    return {function.fndesc.llvm_func_name for function in functions}
+
+
+def _whole(libraries: Iterable[Any], without: Iterable[Any]) -> Any:
     """Return one module of numba's libraries and of all that they link. They are used up."""
-    parts = list(modules_of(libraries))
+    parts = list(modules_of(libraries, without))
     while len(parts) > 1:  # two by two, since LLVM looks through the whole module for each part that is linked to it
         for part, next_part in zip(parts[::2], parts[1::2], strict=False):
             part.link_in(next_part)
@@ -228,8 +251,8 @@ def _readable(name: str) -> str:
     return ".".join(parts) or "data"
 
 
-def refuse_the_rest(module: Any) -> None:
-    """Raise an error if a module needs what the library may not have.
+def refuse_the_rest(module: Any, elsewhere: Iterable[Any] = ()) -> None:
+    """Raise an error if a module needs what the library may not have, besides functions that are `elsewhere` in it.
 
     Raises
     ------
@@ -239,7 +262,7 @@ def refuse_the_rest(module: Any) -> None:
     needed = {f.name for f in module.functions if f.is_declaration and not f.name.startswith("llvm.")}
     needed |= {g.name for g in module.global_variables if g.is_declaration and not g.name.startswith(DATA)}
     needed |= {g.name for g in module.global_variables if g.name.startswith(_REFUSED)}
-    if refused := needed - ALLOWED:
+    if refused := needed - ALLOWED - _symbols(elsewhere):
         users = [f.name for f in module.functions if not f.is_declaration and any(name in str(f) for name in refused)]
         raise RuntimeError(
             f"the kernels need symbols that the library may not have: {', '.join(sorted(refused))}. They stand in "

@@ -1,8 +1,9 @@
-"""Build the library of all kernels: ``python -m contact.compile.library FOLDER [--added | --systems]``.
+"""Build the library of all kernels: ``python -m contact.compile.library FOLDER [--first | --added | --systems]``.
 
-It writes kernels.bc, the kernels before LLVM optimises them, and kernels.o for this machine, with the entries of Python and of
-the C interface, and where there is a linker the library beside it. With ``--added`` these also have those functions that other
-packages add for Python (`Added`). With ``--systems`` kernels.bc has all that they add, and instead of kernels.o there is what
+It writes objects for this machine, with the entries of Python and of the C interface, and where there is a linker the library
+beside them. With ``--first`` these have only the entries behind `contact.solve`; with ``--added`` also those functions that
+other packages add for Python (`Added`). Beside each object lies the bitcode of its kernels before LLVM optimises them. With
+``--systems`` there is instead kernels.bc, the bitcode of all kernels with all that other packages add, and what
 `objects` makes of it for all systems. `linking` then links that.
 
 It imports all modules that have entries (`contact.core.entry`). `contact.core.checkout` starts it, with settings of numba.
@@ -10,21 +11,29 @@ It imports all modules that have entries (`contact.core.entry`). `contact.core.c
 
 from __future__ import annotations
 
+import os
 import shutil
 import subprocess
 import sys
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from importlib import import_module
+from multiprocessing import get_context
 from pathlib import Path
 from typing import Any, NamedTuple
 
 from contact.compile import emit
-from contact.core.checkout import modules, registered
+from contact.core.checkout import is_first, modules, registered
 from contact.core.library import NAME, get_include
 from contact.version import __version__
 
 #: Beginning of the names of the functions that the C interface calls.
 PREFIX = "wrk"
+#: Kernels for whole problems of a patch. Those of the others that call them do so in the first object.
+_OFFERED = (
+    "contact.kernels.normal.press.press",
+    *(f"contact.kernels.pipeline.{name}" for name in ("press_case", "complete_pressure", "roll_case", "solve_case")),
+    "contact.kernels.damage.assess.damage_kernel",
+)
 #: The C sources of the C interface.
 C_INTERFACE = sorted((get_include().parent / "c").glob("*.c"))
 
@@ -84,7 +93,10 @@ class Constants(NamedTuple):
 
 
 class Kernels:
-    """What numba makes of all entries, and of what other packages add as far as `needed` says so."""
+    """What numba makes of all entries, and of what other packages add as far as `needed` says so.
+
+    No kernel can be called in this process afterwards.
+    """
 
     def __init__(self, needed: Callable[[Added], bool]) -> None:
         from contact.compile import c_tables
@@ -97,21 +109,24 @@ class Kernels:
         for name in registered()["added"]:
             self.added += filter(needed, import_module(name).added())
         self.data = c_tables.data()
+        emit.make_no_machine_code()
 
     @property
     def exported(self) -> list[str]:
         """Names of the functions that can be called from outside the library: by Python, and of what other packages add."""
         return [*(one.symbol for one in self.of_python), *(one.name for one in self.added if one.file)]
 
-    def module(self) -> tuple[Any, list[str]]:
-        """Return one LLVM module, and the names of its C functions. No kernel can be called in this process afterwards."""
+    def emission(self, of_python: Sequence[Any], others: bool, elsewhere: Sequence[Any] = ()) -> emit.Emission:
+        """Let numba make entries of Python and, if `others`, those of C and what was added.
+
+        Functions `elsewhere` are called where they are.
+        """
         from numba import cfunc, types
 
         from contact.compile.pointers import TYPES, Doubles
         from contact.core.compiled import as_c_function
 
-        emit.make_no_machine_code()
-        made = emit.Emission(self.data)
+        made = emit.Emission(self.data, elsewhere)
         tables = types.UniTuple(Doubles, len(self.data))
 
         def add(name: str, function: Any, result: str, arguments: tuple[str, ...], given: Any) -> None:
@@ -119,18 +134,13 @@ class Kernels:
             pointers = ("ptr",) * (len(given.types) - 1)
             made.add(name, cfunc(typed, error_model="numpy")(function), result, (*arguments, *pointers))
 
-        for one in self.of_python:
+        for one in of_python:
             made.add_entry(one.symbol, as_c_function(one))
-        for name, (function, result, arguments) in self.of_c.items():
+        for name, (function, result, arguments) in self.of_c.items() if others else ():
             add(f"{PREFIX}_{name}", function, result, arguments, types.NamedTuple((tables,), Constants))
-        for one in self.added:
+        for one in self.added if others else ():
             add(one.name, one.function, one.result, one.arguments, one.last(tables))
-        module = made.module()
-        hidden = set(made.names) - set(self.exported)
-        for function in module.functions:
-            if function.name in hidden:
-                function.visibility = "hidden"
-        return module, made.names
+        return made
 
 
 def write_declarations(folder: Path, ends: tuple[str, ...]) -> None:
@@ -145,10 +155,45 @@ def write_declarations(folder: Path, ends: tuple[str, ...]) -> None:
     (folder / "wheelrail_entries.h").write_text("\n".join(lines) + "\n", encoding="utf-8")
 
 
-def write_object(module: Any, path: Path) -> None:
-    """Optimise a module for this machine and write its object file."""
+def write_objects(kernels: Kernels, folder: Path, *, first: bool) -> None:
+    """Write the objects for this machine: of all kernels, or only of the `first`, those behind `contact.solve`.
+
+    A process of its own optimises these while numba makes the others. A system that cannot fork gets one object.
+    """
+    data = emit.data_as_ir(kernels.data)
+    if not first and not hasattr(os, "fork"):
+        _write_object(kernels.emission(kernels.of_python, True), kernels.exported, data, folder / "kernels.o")
+        return
+    these = [one for one in kernels.of_python if is_first(one.function.__module__)]
+    made = kernels.emission(these, False)
+    given = made, kernels.exported, data, folder / "first.o"
+    if first:
+        _write_object(*given)
+        return
+    elsewhere = [function for name in _OFFERED for function in made.offer(_kernel(name))]
+    beside = get_context("fork").Process(target=_write_object, args=given, daemon=True)
+    beside.start()
+    others = kernels.emission([one for one in kernels.of_python if one not in these], True, elsewhere)
+    _write_object(others, kernels.exported, "", folder / "others.o")
+    beside.join()
+    if beside.exitcode:
+        raise RuntimeError("the object of the first kernels could not be written")
+
+
+def _kernel(name: str) -> Any:
+    """Return a kernel as numba's dispatcher."""
+    module, _, name = name.rpartition(".")
+    found = getattr(import_module(module), name)
+    return getattr(found, "dispatcher", found)
+
+
+def _write_object(made: emit.Emission, exported: Sequence[str], data: str, path: Path) -> None:
+    """Optimise an emission for this machine and write its object file."""
     from llvmlite import binding as llvm
 
+    module = made.module(exported)
+    path.with_suffix(".bc").write_bytes(module.as_bitcode())
+    module.link_in(llvm.parse_assembly(data))
     llvm.initialize_native_target()
     llvm.initialize_native_asmprinter()
     target = llvm.Target.from_default_triple()
@@ -162,18 +207,22 @@ def write_object(module: Any, path: Path) -> None:
     module.triple, module.data_layout = llvm.get_default_triple(), str(machine.target_data)
     builder = llvm.create_pass_builder(machine, llvm.create_pipeline_tuning_options(speed_level=3))
     builder.getModulePassManager().run(module, builder)
-    emit.refuse_the_rest(module)
+    emit.refuse_the_rest(module, made.elsewhere)
     path.write_bytes(machine.emit_object(module))
 
 
-def link_for_this_machine(folder: Path) -> None:
-    """Link the library, with its C interface, by the system's compiler if there is one. Else Python alone can use kernels.o."""
+def link_for_this_machine(folder: Path, *, first: bool) -> None:
+    """Link the library by the system's compiler if there is one, with its C interface unless it has only the `first` kernels.
+
+    Without a compiler Python alone can use the objects.
+    """
     compiler = next(filter(None, map(shutil.which, ("cc", "gcc", "clang"))), None)
     if compiler is None:
         return
     write_declarations(folder, ("",))
     options = ("-std=c11", "-shared", "-fPIC", "-O2", "-ffp-contract=off", "-fvisibility=hidden", *flags(folder))
-    command = [compiler, *options, "-o", str(folder / NAME), *map(str, C_INTERFACE), str(folder / "kernels.o"), "-lm"]
+    in_c = [path for path in C_INTERFACE if not first or path.name == "library.c"]
+    command = [compiler, *options, "-o", str(folder / NAME), *map(str, (*in_c, *folder.glob("*.o"))), "-lm"]
     done = subprocess.run(command, check=False, capture_output=True, text=True)
     sys.stdout.write(done.stderr)  # a compiler without headers or a linker is like none
 
@@ -181,28 +230,25 @@ def link_for_this_machine(folder: Path) -> None:
 def main() -> None:
     """Build into the folder that the command line names."""
     emit.show_no_warnings()
-    folder, for_systems = Path(sys.argv[1]), "--systems" in sys.argv
-    for_python = "--added" in sys.argv
-    kernels = Kernels(lambda one: for_systems or (for_python and one.python))
-    module, names = kernels.module()
-    data = emit.data_as_ir(kernels.data)
-    code = module.as_bitcode()
-    (folder / "kernels.bc").write_bytes(code)  # for the explorer, and for the test that all kernels can become C
+    folder, options = Path(sys.argv[1]), set(sys.argv[2:])
+    for_systems = "--systems" in options
+    kernels = Kernels(lambda one: for_systems or ("--added" in options and one.python))
     if not for_systems:
-        from llvmlite import binding as llvm
-
-        module.link_in(llvm.parse_assembly(data))
-        write_object(module, folder / "kernels.o")
-        link_for_this_machine(folder)
+        write_objects(kernels, folder, first="--first" in options)
+        link_for_this_machine(folder, first="--first" in options)
         return
     from contact.compile import objects
 
     write_declarations(folder, tuple(f"_{suffix}" for suffix in (*objects.CPUS, objects.IN_C)))
+    made = kernels.emission(kernels.of_python, True)
+    code = made.module(kernels.exported).as_bitcode()
+    (folder / "kernels.bc").write_bytes(code)  # for the explorer
     in_c: dict[str, list[str]] = {}
     for one in kernels.added:
         in_c.setdefault(one.file, []).append(one.name)
     apart = in_c.pop("", [])
-    names = [name for name in names if name not in apart]
+    names = [name for name in made.names if name not in apart]
+    data = emit.data_as_ir(kernels.data)
     objects.write(code, names, kernels.exported, data, {"kernels.c": names, **in_c}, folder)
 
 

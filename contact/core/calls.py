@@ -224,4 +224,4 @@ def _function(one: Entry) -> Any:
         return called_from_python(one)
     from contact.core.library import address
 
-    return _C_FUNCTION(address(one.symbol))
+    return _C_FUNCTION(address(one.symbol, one.function.__module__))

@@ -41,6 +41,11 @@ ENVIRONMENT = {
     "NUMBA_DISABLE_INTEL_SVML": "1",
     "NUMBA_DISABLE_ERROR_MESSAGE_HIGHLIGHTING": "1",  # of overloads that do not fit, which nobody reads
 }
+#: Modules of the kernels with the entries behind `contact.solve`, which are compiled first.
+_FIRST = (
+    *("solver", "pipeline", "separation", "quadrature", "kalker", "friction", "damage.assess", "tangential.table"),
+    *("normal.between_panels", "normal.descent", "normal.factors", "normal.influence"),
+)
 #: Libraries that were not used for this time [s] are removed. At most `_MOST` are kept besides those of the last hour.
 _STALE, _RECENT, _MOST = 30 * 86400.0, 3600.0, 8
 PREFIX = "wheelrail-contact-"
@@ -150,6 +155,11 @@ def registered() -> dict[str, list[str]]:
     """
     told = tomllib.loads(_PROJECT.read_text(encoding="utf-8")) if _PROJECT.is_file() else {}
     return {"roots": [], "kernels": [], "added": [], **told.get("tool", {}).get("contact", {}).get("library", {})}
+
+
+def is_first(module: str) -> bool:
+    """Return whether the entries of a module are those behind `contact.solve`."""
+    return module.removeprefix("contact.kernels.") in _FIRST
 
 
 def roots() -> list[Path]:

@@ -1,6 +1,7 @@
 """The library of compiled kernels: where it is, and the addresses of its functions.
 
-A wheel holds it, in `contact/library`. A checkout builds it when it is first needed (`contact.core.checkout`).
+A wheel holds it, in `contact/library`. A checkout builds it when it is first needed (`contact.core.checkout`), and before that
+only what is behind `contact.solve`, if no more is needed.
 """
 
 from __future__ import annotations
@@ -17,7 +18,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from contact.core.checkout import PREFIX, build, cache_folder, fingerprint, registered
+from contact.core.checkout import PREFIX, build, cache_folder, fingerprint, is_first, registered
 from contact.version import __version__
 
 _HERE = Path(__file__).parents[1]
@@ -64,14 +65,14 @@ def get_library() -> Path:
     return path
 
 
-def address(symbol: str) -> int:
-    """Return the address of a function of the library."""
-    return loaded().address(symbol)
+def address(symbol: str, module: str) -> int:
+    """Return the address of a function of the library, the entry of a module."""
+    return loaded(is_first(module)).address(symbol)
 
 
 def constants(k: int, shape: tuple[int, ...]) -> NDArray[np.float64]:
     """Return array `k` of the constant arrays that the kernels read (`contact.compile.c_tables`). It is read-only."""
-    numbers = (ctypes.c_double * math.prod(shape)).from_address(loaded().constants(k))
+    numbers = (ctypes.c_double * math.prod(shape)).from_address(loaded(first=True).constants(k))
     found = np.frombuffer(memoryview(numbers).cast("B")).reshape(shape)
     found.setflags(write=False)
     return found
@@ -86,10 +87,10 @@ class Loaded:
 
 
 @cache
-def loaded() -> Loaded:
-    """Return the library of this package."""
+def loaded(first: bool = False) -> Loaded:
+    """Return the library of this package. A checkout may build only that of the `first` entries if these are enough."""
     whole = _whole()
-    return of_library(whole) if whole else of_folder(cached())
+    return of_library(whole) if whole else of_folder(cached(first))
 
 
 def of_folder(folder: Path) -> Loaded:
@@ -133,14 +134,15 @@ def of_library(path: Path) -> Loaded:
 
 
 def _of_objects(folder: Path) -> Loaded:
-    """Load the object file of a checkout on a machine that has no linker."""
+    """Load the object files of a checkout on a machine that has no linker."""
     from llvmlite import binding as llvm
 
     llvm.initialize_native_target()
     llvm.initialize_native_asmprinter()
     machine = llvm.Target.from_default_triple().create_target_machine(jit=True)
     engine = llvm.create_mcjit_compiler(llvm.parse_assembly(""), machine)
-    engine.add_object_file(str(folder / "kernels.o"))
+    for path in folder.glob("*.o"):
+        engine.add_object_file(str(path))
     engine.finalize_object()
     _KEPT.append(engine)
     return Loaded(
@@ -167,12 +169,14 @@ def _whole() -> Path | None:
     return max(found, key=lambda path: path.stat().st_mtime, default=None)
 
 
-def cached() -> Path:
-    """Return the folder of the library of this checkout. Build it if it is not there."""
+def cached(first: bool = False) -> Path:
+    """Return the folder of the library of this checkout, or of one with the `first` entries. Build it if it is not there."""
     folder = cache_folder() / (PREFIX + fingerprint())
     if not folder.is_dir() and not registered()["kernels"]:
         raise ImportError(
             f"wheelrail-contact has no compiled library for {platform.system()} on {platform.machine()}: {INSTALLED} is "
             "missing. Install a wheel for this system, or build one from the sources (CONTRIBUTING.md)."
         )
+    if first and not folder.is_dir():
+        return build(folder.with_name(f"{folder.name}-first"), "--first")
     return build(folder)

@@ -200,6 +200,44 @@ def test_without_any_folder_for_the_library_a_message_names_the_variable(tmp_pat
         checkout.cache_folder()
 
 
+def test_the_first_solution_of_a_clone_needs_only_the_entries_that_are_compiled_first():
+    code = """
+from contact.core import library
+folder = library.get_library().parent
+def cached(first=False):
+    if not first:
+        raise ImportError("the whole library")
+    return folder
+library._whole, library.cached = lambda: None, cached
+import contact
+separation, creepage = contact.Separation.hertzian(1.1, 0.8), contact.Creepage(1e-3, 5e-4, 0.2)
+contact.solve(separation, creepage, load=8e4, derivatives=True).damage
+contact.solve(separation, creepage, load=8e4, force=-3e3, friction=contact.friction.Friction(0.4, 0.2, law="rational"))
+contact.solve(separation, creepage, load=8e4, **contact.THESIS)
+contact.forces(separation, creepage, load=[1e4, 2e4])
+from contact.kernels.geometry.search import axle
+axle(0.0, 0.0)
+"""
+    done = run(code)
+    assert done.stderr.splitlines()[-1] == "ImportError: the whole library", done.stderr
+
+
+def test_a_build_that_was_killed_is_built_anew(tmp_path):
+    code = f"""
+import os, pathlib, signal
+from contact.core import checkout
+def half(folder, *options):
+    (folder / "first.o").write_text("half")
+    os.kill(os.getpid(), signal.SIGKILL)
+checkout._run_builder = half
+checkout.build(pathlib.Path({str(tmp_path)!r}) / "library")
+"""
+    assert run(code).returncode == -9
+    whole = code.replace("os.kill(os.getpid(), signal.SIGKILL)", "(folder / 'others.o').write_text('whole')")
+    assert run(whole).returncode == 0
+    assert {path.name for path in (tmp_path / "library").iterdir()} == {"first.o", "others.o"}
+
+
 def test_a_library_of_another_version_is_named(monkeypatch):
     path = library.get_library()
     with pytest.raises(ImportError, match="built from other sources"):
