@@ -235,22 +235,22 @@ _Static_assert(sizeof(wr_result) == 224, "wr_result");
 #endif
 
 typedef struct {
-    double y; /* of the wheelset's centre [m] */
-    double z; /* pose.z [m]; the centre is at z - radius */
-    double roll; /* [rad] */
-    double yaw; /* [rad] */
-    double vx; /* forward velocity [m/s] */
-    double vy; /* [m/s] */
-    double vz; /* [m/s] */
-    double roll_rate; /* [rad/s] */
-    double yaw_rate; /* [rad/s] */
-    double spin; /* about the axle, negative when rolling forward [rad/s] */
-    double rail_y; /* displacement of the rail [m] */
-    double rail_z; /* [m] */
-    double rail_roll; /* [rad] */
-    double rail_vy; /* [m/s] */
-    double rail_vz; /* [m/s] */
-    double rail_roll_rate; /* [rad/s] */
+    double y; /* lateral position of the wheelset's centre, positive to the right [m] */
+    double z; /* height of the wheelset, positive down: 0 with both tape circles on the plane of the rails' tops [m] */
+    double roll; /* roll angle, positive lowers the right wheel [rad] */
+    double yaw; /* yaw angle, clockwise seen from above [rad] */
+    double vx; /* forward speed, negative when rolling backwards [m/s] */
+    double vy; /* lateral velocity of the centre [m/s] */
+    double vz; /* vertical velocity of the centre [m/s] */
+    double roll_rate; /* roll rate [rad/s] */
+    double yaw_rate; /* yaw rate [rad/s] */
+    double spin; /* rotation about the axle, negative when rolling forward [rad/s] */
+    double rail_y; /* lateral displacement of this rail [m] */
+    double rail_z; /* vertical displacement of this rail, positive down [m] */
+    double rail_roll; /* roll of this rail about its profile's origin [rad] */
+    double rail_vy; /* rate of this rail's lateral displacement as the wheel meets it [m/s] */
+    double rail_vz; /* rate of this rail's vertical displacement [m/s] */
+    double rail_roll_rate; /* rate of this rail's roll [rad/s] */
 } wr_motion;
 #if defined(__STDC_VERSION__) && __STDC_VERSION__ >= 201112L
 _Static_assert(sizeof(wr_motion) == 128, "wr_motion");
@@ -270,18 +270,18 @@ _Static_assert(sizeof(wr_elastic_rail) == 56, "wr_elastic_rail");
 #endif
 
 typedef struct {
-    double x; /* of the wheel's datum, on the axle at the tape circle [m] */
-    double y; /* [m] */
-    double z; /* [m] */
-    double roll; /* [rad] */
-    double pitch; /* [rad]; without effect on a body of revolution */
-    double yaw; /* [rad] */
-    double x_rate; /* [m/s] */
-    double y_rate; /* [m/s] */
-    double z_rate; /* [m/s] */
-    double roll_rate; /* [rad/s] */
-    double pitch_rate; /* [rad/s] */
-    double yaw_rate; /* [rad/s] */
+    double x; /* longitudinal displacement of the wheel's datum, on the axle at the tape circle, against its wheelset [m] */
+    double y; /* lateral displacement of the wheel against its wheelset [m] */
+    double z; /* vertical displacement of the wheel against its wheelset, positive down [m] */
+    double roll; /* roll of the wheel against its wheelset [rad] */
+    double pitch; /* pitch of the wheel against its wheelset; without effect on a wheel of revolution [rad] */
+    double yaw; /* yaw of the wheel against its wheelset [rad] */
+    double x_rate; /* rate of the longitudinal displacement [m/s] */
+    double y_rate; /* rate of the lateral displacement [m/s] */
+    double z_rate; /* rate of the vertical displacement [m/s] */
+    double roll_rate; /* rate of the roll [rad/s] */
+    double pitch_rate; /* rate of the pitch; adds to the rotation about the axle [rad/s] */
+    double yaw_rate; /* rate of the yaw [rad/s] */
 } wr_wheel_offset;
 #if defined(__STDC_VERSION__) && __STDC_VERSION__ >= 201112L
 _Static_assert(sizeof(wr_wheel_offset) == 96, "wr_wheel_offset");
@@ -289,25 +289,25 @@ _Static_assert(sizeof(wr_wheel_offset) == 96, "wr_wheel_offset");
 
 typedef struct {
     double N; /* normal force [N] */
-    double Fx; /* longitudinal creep force [N] */
-    double Fy; /* lateral creep force [N] */
-    double Mx; /* moments of the normal pressure about the reference point [N m] */
-    double My; /* [N m] */
-    double Mz; /* spin moment [N m] */
-    double x; /* the wheel's point opposite the reference point, track coordinates [m] */
-    double y; /* [m] */
-    double z; /* [m] */
-    double angle; /* contact angle [rad] */
-    double area; /* [m2] */
-    double pmax; /* [Pa] */
-    double longitudinal; /* creepages there [-] */
-    double lateral; /* [-] */
-    double spin; /* [1/m] */
-    double approach; /* [m] */
-    double rail_y; /* reference point in the rail's profile, right side [m] */
-    double rail_z; /* [m] */
-    double wheel_y; /* the wheel's point in its profile, right side [m] */
-    double wheel_z; /* [m] */
+    double Fx; /* longitudinal creep force on the wheel [N] */
+    double Fy; /* lateral creep force on the wheel, along the contact plane [N] */
+    double Mx; /* moment of the normal pressure about the longitudinal axis [N m] */
+    double My; /* moment of the normal pressure about the lateral axis [N m] */
+    double Mz; /* spin moment on the wheel [N m] */
+    double x; /* point of application of forces and moments, track coordinates, longitudinal [m] */
+    double y; /* point of application of forces and moments, track coordinates, lateral [m] */
+    double z; /* point of application of forces and moments, track coordinates, vertical, positive down [m] */
+    double angle; /* contact angle; the contact frame is the track frame turned about x by this angle [rad] */
+    double area; /* contact area [m2] */
+    double pmax; /* greatest contact pressure [Pa] */
+    double longitudinal; /* longitudinal creepage, wheel minus rail [-] */
+    double lateral; /* lateral creepage, wheel minus rail [-] */
+    double spin; /* spin creepage, wheel minus rail [1/m] */
+    double approach; /* rigid approach from first touch, along the normal [m] */
+    double rail_y; /* contact position on the rail's profile, lateral, positive to the field side [m] */
+    double rail_z; /* contact position on the rail's profile, vertical, positive down [m] */
+    double wheel_y; /* contact position on the wheel's profile, lateral from the tape circle, positive to the field side [m] */
+    double wheel_z; /* contact position on the wheel's profile, vertical, positive down [m] */
     double used_friction; /* creep force over normal force [-] */
     double gap_error; /* [-] */
     int64_t status; /* Status */
@@ -318,17 +318,17 @@ _Static_assert(sizeof(wr_patch) == 192, "wr_patch");
 #endif
 
 typedef struct {
-    double T_gamma; /* |Fx vx| + |Fy vy| [N] */
-    double T_gamma_spin; /* the same + |Mz phi| [N] */
+    double T_gamma; /* wear number |Fx vx| + |Fy vy|, of forces and creepages [N] */
+    double T_gamma_spin; /* wear number with spin, |Fx vx| + |Fy vy| + |Mz phi| [N] */
     double dissipation; /* [N] */
-    double pearce_sherratt; /* tread area lost [m2/m] */
-    double burstow; /* share of RCF life per pass [-] */
-    double usfd; /* volume lost per contact area [m/m] */
-    double archard_depth; /* greatest [m/m] */
-    double archard_volume; /* [m3/m] */
-    double fatigue_index; /* surface fatigue index [-] */
-    double stress_index; /* greatest [Pa] */
-    double energy_index; /* greatest [Pa] */
+    double pearce_sherratt; /* tread area worn off, Pearce and Sherratt [m2/m] */
+    double burstow; /* rolling contact fatigue index per axle pass, Burstow [-] */
+    double usfd; /* volume worn off a unit of contact area, Sheffield [m/m] */
+    double archard_depth; /* greatest wear depth, Archard [m/m] */
+    double archard_volume; /* volume worn off, Archard [m3/m] */
+    double fatigue_index; /* surface fatigue index, Ekberg [-] */
+    double stress_index; /* greatest stress index |q| - k [Pa] */
+    double energy_index; /* greatest energy index q.w [Pa] */
 } wr_damage;
 #if defined(__STDC_VERSION__) && __STDC_VERSION__ >= 201112L
 _Static_assert(sizeof(wr_damage) == 88, "wr_damage");
@@ -355,17 +355,17 @@ typedef struct {
     double Y_over_Q; /* [-]; 0 without vertical force */
     double used_friction; /* sum of the creep forces over that of the normal forces [-] */
     double bend; /* largest change of the contact angle over the patches in one plane [rad] */
-    double T_gamma; /* |Fx vx| + |Fy vy| [N] */
-    double T_gamma_spin; /* the same + |Mz phi| [N] */
+    double T_gamma; /* wear number |Fx vx| + |Fy vy|, of forces and creepages [N] */
+    double T_gamma_spin; /* wear number with spin, |Fx vx| + |Fy vy| + |Mz phi| [N] */
     double dissipation; /* [N] */
-    double pearce_sherratt; /* tread area lost [m2/m] */
-    double burstow; /* share of RCF life per pass [-] */
-    double usfd; /* volume lost per contact area [m/m] */
-    double archard_depth; /* greatest [m/m] */
-    double archard_volume; /* [m3/m] */
-    double fatigue_index; /* surface fatigue index [-] */
-    double stress_index; /* greatest [Pa] */
-    double energy_index; /* greatest [Pa] */
+    double pearce_sherratt; /* tread area worn off, Pearce and Sherratt [m2/m] */
+    double burstow; /* rolling contact fatigue index per axle pass, Burstow [-] */
+    double usfd; /* volume worn off a unit of contact area, Sheffield [m/m] */
+    double archard_depth; /* greatest wear depth, Archard [m/m] */
+    double archard_volume; /* volume worn off, Archard [m3/m] */
+    double fatigue_index; /* surface fatigue index, Ekberg [-] */
+    double stress_index; /* greatest stress index |q| - k [Pa] */
+    double energy_index; /* greatest energy index q.w [Pa] */
 } wr_total;
 #if defined(__STDC_VERSION__) && __STDC_VERSION__ >= 201112L
 _Static_assert(sizeof(wr_total) == 248, "wr_total");

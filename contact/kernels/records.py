@@ -118,22 +118,22 @@ RESULT = record(
 )
 
 _GIVEN = """
-    y               of the wheelset's centre [m]
-    z               pose.z [m]; the centre is at z - radius
-    roll            [rad]
-    yaw             [rad]
-    vx              forward velocity [m/s]
-    vy              [m/s]
-    vz              [m/s]
-    roll_rate       [rad/s]
-    yaw_rate        [rad/s]
-    spin            about the axle, negative when rolling forward [rad/s]
-    rail_y          displacement of the rail [m]
-    rail_z          [m]
-    rail_roll       [rad]
-    rail_vy         [m/s]
-    rail_vz         [m/s]
-    rail_roll_rate  [rad/s]
+    y               lateral position of the wheelset's centre, positive to the right [m]
+    z               height of the wheelset, positive down: 0 with both tape circles on the plane of the rails' tops [m]
+    roll            roll angle, positive lowers the right wheel [rad]
+    yaw             yaw angle, clockwise seen from above [rad]
+    vx              forward speed, negative when rolling backwards [m/s]
+    vy              lateral velocity of the centre [m/s]
+    vz              vertical velocity of the centre [m/s]
+    roll_rate       roll rate [rad/s]
+    yaw_rate        yaw rate [rad/s]
+    spin            rotation about the axle, negative when rolling forward [rad/s]
+    rail_y          lateral displacement of this rail [m]
+    rail_z          vertical displacement of this rail, positive down [m]
+    rail_roll       roll of this rail about its profile's origin [rad]
+    rail_vy         rate of this rail's lateral displacement as the wheel meets it [m/s]
+    rail_vz         rate of this rail's vertical displacement [m/s]
+    rail_roll_rate  rate of this rail's roll [rad/s]
     """
 
 #: Pose, velocity and irregularity of the rail as a caller gives them, of either side.
@@ -221,25 +221,25 @@ CONTACT = record(
     "contact",
     """
     N               normal force [N]
-    Fx              longitudinal creep force [N]
-    Fy              lateral creep force [N]
-    Mx              moments of the normal pressure about the reference point [N m]
-    My              [N m]
-    Mz              spin moment [N m]
-    x               the wheel's point opposite the reference point, track coordinates [m]
-    y               [m]
-    z               [m]
-    angle           contact angle [rad]
-    area            [m2]
-    pmax            [Pa]
-    longitudinal    creepages there [-]
-    lateral         [-]
-    spin            [1/m]
-    approach        [m]
-    rail_y          reference point in the rail's profile, right side [m]
-    rail_z          [m]
-    wheel_y         the wheel's point in its profile, right side [m]
-    wheel_z         [m]
+    Fx              longitudinal creep force on the wheel [N]
+    Fy              lateral creep force on the wheel, along the contact plane [N]
+    Mx              moment of the normal pressure about the longitudinal axis [N m]
+    My              moment of the normal pressure about the lateral axis [N m]
+    Mz              spin moment on the wheel [N m]
+    x               point of application of forces and moments, track coordinates, longitudinal [m]
+    y               point of application of forces and moments, track coordinates, lateral [m]
+    z               point of application of forces and moments, track coordinates, vertical, positive down [m]
+    angle           contact angle; the contact frame is the track frame turned about x by this angle [rad]
+    area            contact area [m2]
+    pmax            greatest contact pressure [Pa]
+    longitudinal    longitudinal creepage, wheel minus rail [-]
+    lateral         lateral creepage, wheel minus rail [-]
+    spin            spin creepage, wheel minus rail [1/m]
+    approach        rigid approach from first touch, along the normal [m]
+    rail_y          contact position on the rail's profile, lateral, positive to the field side [m]
+    rail_z          contact position on the rail's profile, vertical, positive down [m]
+    wheel_y         contact position on the wheel's profile, lateral from the tape circle, positive to the field side [m]
+    wheel_z         contact position on the wheel's profile, vertical, positive down [m]
     used_friction   creep force over normal force [-]
     gap_error       [-]
     status:int      Status
@@ -248,17 +248,17 @@ CONTACT = record(
 )
 
 _DAMAGE = """
-    T_gamma         |Fx vx| + |Fy vy| [N]
-    T_gamma_spin    the same + |Mz phi| [N]
+    T_gamma         wear number |Fx vx| + |Fy vy|, of forces and creepages [N]
+    T_gamma_spin    wear number with spin, |Fx vx| + |Fy vy| + |Mz phi| [N]
     dissipation     [N]
-    pearce_sherratt tread area lost [m2/m]
-    burstow         share of RCF life per pass [-]
-    usfd            volume lost per contact area [m/m]
-    archard_depth   greatest [m/m]
-    archard_volume  [m3/m]
-    fatigue_index   surface fatigue index [-]
-    stress_index    greatest [Pa]
-    energy_index    greatest [Pa]
+    pearce_sherratt tread area worn off, Pearce and Sherratt [m2/m]
+    burstow         rolling contact fatigue index per axle pass, Burstow [-]
+    usfd            volume worn off a unit of contact area, Sheffield [m/m]
+    archard_depth   greatest wear depth, Archard [m/m]
+    archard_volume  volume worn off, Archard [m3/m]
+    fatigue_index   surface fatigue index, Ekberg [-]
+    stress_index    greatest stress index |q| - k [Pa]
+    energy_index    greatest energy index q.w [Pa]
     """
 
 #: Damage of one patch; per metre rolled.
@@ -324,22 +324,22 @@ ELASTIC_RAIL = record(
     """,
 )
 
-#: Displacement of a wheel against its wheelset, in track coordinates.
+#: Displacement of a wheel against its wheelset, in track coordinates, as its axle and web bend.
 WHEEL_OFFSET = record(
     "wheel_offset",
     """
-    x               of the wheel's datum, on the axle at the tape circle [m]
-    y               [m]
-    z               [m]
-    roll            [rad]
-    pitch           [rad]; without effect on a body of revolution
-    yaw             [rad]
-    x_rate          [m/s]
-    y_rate          [m/s]
-    z_rate          [m/s]
-    roll_rate       [rad/s]
-    pitch_rate      [rad/s]
-    yaw_rate        [rad/s]
+    x               longitudinal displacement of the wheel's datum, on the axle at the tape circle, against its wheelset [m]
+    y               lateral displacement of the wheel against its wheelset [m]
+    z               vertical displacement of the wheel against its wheelset, positive down [m]
+    roll            roll of the wheel against its wheelset [rad]
+    pitch           pitch of the wheel against its wheelset; without effect on a wheel of revolution [rad]
+    yaw             yaw of the wheel against its wheelset [rad]
+    x_rate          rate of the longitudinal displacement [m/s]
+    y_rate          rate of the lateral displacement [m/s]
+    z_rate          rate of the vertical displacement [m/s]
+    roll_rate       rate of the roll [rad/s]
+    pitch_rate      rate of the pitch; adds to the rotation about the axle [rad/s]
+    yaw_rate        rate of the yaw [rad/s]
     """,
 )
 

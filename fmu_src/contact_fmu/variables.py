@@ -14,11 +14,9 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from enum import StrEnum
 from itertools import product
-from typing import TypedDict, Unpack
 
 from contact.arrays import Array
 from contact.errors import require_number
-from contact.inputs.options import MEMBERS, Real, Whole
 from contact.kernels.records import MEANING
 
 
@@ -56,48 +54,6 @@ class Enumeration:
         return self.items[number - 1][0]
 
 
-class Limits(TypedDict, total=False):
-    """Range and nominal of a row, explained at `Variable`. Rows of one kind may share them."""
-
-    minimum: float
-    maximum: float
-    open_minimum: bool
-    nominal: float | None
-
-
-class Taken(TypedDict, total=False):
-    """What a row has of an option of the library."""
-
-    start: float
-    minimum: float
-    maximum: float
-    open_minimum: bool
-    integer: bool
-
-
-class Placed(Taken, total=False):
-    """The same, and where it goes."""
-
-    member: str
-
-
-class Attributes(Limits, total=False):
-    """Optional attributes of a row, explained at `Variable`."""
-
-    unit: str | tuple[str, ...]
-    start: float | str | tuple[float, ...] | None
-    enumeration: Enumeration | None
-    integer: bool
-    boolean: bool
-    shape: tuple[int | str, ...]
-    depends: tuple[str, ...] | None
-    tunable: bool
-    used: Mapping[str, tuple[str, ...]]
-    twin_of: str
-    member: str
-    integral_of: tuple[str | None, str | None] | None
-
-
 @dataclass(frozen=True, kw_only=True)
 class Variable:
     """One row of a table.
@@ -105,6 +61,7 @@ class Variable:
     Parameters
     ----------
     name, description : str
+        If the description is not given, it is that of the `member`.
     causality : Causality
     unit : str or tuple of str
         Key of `units.UNITS`, or one key for each element. Every Real has a unit ("1" if dimensionless), other types have none.
@@ -139,7 +96,7 @@ class Variable:
     """
 
     name: str
-    description: str
+    description: str = ""
     causality: Causality
     unit: str | tuple[str, ...] = ""
     start: float | str | tuple[float, ...] | None = None
@@ -161,6 +118,8 @@ class Variable:
     def __post_init__(self) -> None:
         if not self.unit:
             object.__setattr__(self, "unit", _unit_of(self.member))
+        if not self.description:
+            object.__setattr__(self, "description", _meaning_of(self.member))
 
     @property
     def is_given(self) -> bool:
@@ -337,9 +296,10 @@ def with_twins(rows: Sequence[Variable]) -> tuple[Variable, ...]:
                 f"{i} {name}" for i, (name, _) in enumerate(row.enumeration.items, 1)
             )
             every.append(
-                output(
-                    f"{row.name}_real",
-                    f"{row.name} as a Real" + (f": {numbers}" if numbers else ""),
+                Variable(
+                    name=f"{row.name}_real",
+                    description=f"{row.name} as a Real" + (f": {numbers}" if numbers else ""),
+                    causality=Causality.OUTPUT,
                     minimum=1 if row.enumeration else row.minimum,
                     maximum=len(row.enumeration.items) if row.enumeration else row.maximum,
                     shape=row.shape,
@@ -380,36 +340,8 @@ def _unit_of(member: str) -> str:
     return found[1].replace(" ", ".").replace("-", "1") if found else "1"
 
 
-def identifier(name: str) -> str:
-    """Return the name of a row as an identifier, without dots and brackets."""
-    return name.replace("[]", "").replace(".", "_")
-
-
-def taken(option: Whole | Real) -> Taken:
-    """Return start value and range of an option of the library."""
-    found: Taken = {"start": option.usual, "minimum": option.least}
-    if isinstance(option, Whole):
-        return {**found, "integer": True, "maximum": option.most}
-    if option.above:
-        found["open_minimum"] = True
-    return found if math.isinf(option.most) else {**found, "maximum": option.most}
-
-
-def of(record: str, member: str) -> Placed:
-    """Return start value and range of a number of a record, and the place where it goes."""
-    return {**taken(MEMBERS[record][member]), "member": f"{record}.{member}"}
-
-
-def parameter(name: str, description: str, **attributes: Unpack[Attributes]) -> Variable:
-    """Return a parameter, fixed unless it is `tunable`."""
-    return Variable(name=name, description=description, causality=Causality.PARAMETER, **attributes)
-
-
-def signal(name: str, description: str, **attributes: Unpack[Attributes]) -> Variable:
-    """Return an input."""
-    return Variable(name=name, description=description, causality=Causality.INPUT, **attributes)
-
-
-def output(name: str, description: str, **attributes: Unpack[Attributes]) -> Variable:
-    """Return an output."""
-    return Variable(name=name, description=description, causality=Causality.OUTPUT, **attributes)
+def _meaning_of(member: str) -> str:
+    """Return what the kernels say of a member of a record, without its unit."""
+    record, name = member.split(".")
+    text = re.sub(r" *\[.+?\]", "", MEANING[record][name])
+    return text[:1].upper() + text[1:]

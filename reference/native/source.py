@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from contact_fmu.description_fmi3 import value_references
 from contact_fmu.native.component import Component
-from contact_fmu.variables import Causality, Table, identifier
+from contact_fmu.rows import identifier
+from contact_fmu.variables import Causality, Table
 
 
 def header(component: Component, guid: str) -> str:

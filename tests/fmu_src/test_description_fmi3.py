@@ -9,7 +9,8 @@ from contact_fmu.catalogue import models, surfaces
 from contact_fmu.description_fmi3 import model_description, value_references
 from contact_fmu.documentation import markdown
 from contact_fmu.native.packaging import INTERFACES_3
-from contact_fmu.variables import Causality, Table, output, parameter
+from contact_fmu.rows import output, parameter
+from contact_fmu.variables import Causality, Table
 
 TABLES = [*(model.table for model in models(41)), surfaces().table]
 

@@ -4,6 +4,7 @@ import pytest
 
 from contact.inputs.options import MEMBERS
 from contact.kernels import records
+from contact_fmu.rows import output
 from contact_fmu.tables import wheel_rail_contact, wheel_rail_pair, wheel_rail_surfaces
 
 TABLES = [wheel_rail_contact.table(), wheel_rail_pair.table(), wheel_rail_surfaces.table()]
@@ -23,6 +24,12 @@ def placed(table):
 def test_every_member_that_a_row_names_is_in_its_record(table):
     for row, record, member in placed(table):
         assert member in getattr(records, record.upper()).names, row.name
+
+
+def test_a_row_without_unit_and_description_has_those_of_the_record(table):
+    row = output("patch.fy", member="contact.Fy")
+    assert (row.description, row.unit) == ("Lateral creep force on the wheel, along the contact plane", "N")
+    assert [row.name for row in table.rows if not row.description] == []
 
 
 def test_no_two_rows_are_copied_to_the_same_member(table):

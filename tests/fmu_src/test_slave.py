@@ -10,7 +10,8 @@ from pythonfmu.enums import Fmi2Status
 from contact_fmu.description import model_description
 from contact_fmu.native.component import Component
 from contact_fmu.python.slave import INTERFACES, TableSlave
-from contact_fmu.variables import Enumeration, Table, output, parameter, signal
+from contact_fmu.rows import output, parameter, signal
+from contact_fmu.variables import Enumeration, Table
 
 TABLE = Table(
     "Quotient",

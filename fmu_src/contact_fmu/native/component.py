@@ -10,7 +10,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..resources import MOST_POINTS
-from ..variables import Table, identifier
+from ..rows import identifier
+from ..variables import Table
 
 #: Sizes of a model at the beginning of its numbers, before the value references of its rows.
 SIZES = ("n_values", "points", "n_bodies", "n_links", "n_elements", "n_axles", "n_table")

@@ -30,7 +30,7 @@ CONTACT_DERIVED = (
 )
 PAIR_DERIVED = (
     (*(f"{kind}.{axis}" for kind in ("force", "moment") for axis in "xyz"), "wheelset.z"),
-    (*(name for name, _, _ in wheel_rail_pair.MOTION), "load.normal_force", "friction.coefficient"),
+    (*wheel_rail_pair.MOTION, "load.normal_force", "friction.coefficient"),
 )
 
 

@@ -32,9 +32,10 @@ from contact_models.vehicle.kernels.between import (
 )
 from contact_models.vehicle.kernels.layout import Book
 from contact_models.vehicle.kernels.wheels import report_wheel, share_of_stick
+from ..rows import identifier
 from ..tables import wheel_rail_pair as pair_table
 from ..tables.vehicle import TOTALS, WHEEL, table
-from ..variables import Causality, identifier
+from ..variables import Causality
 from .component import places
 from .components import Failure
 from .kinds import SIGNATURES

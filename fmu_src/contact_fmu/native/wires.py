@@ -14,7 +14,8 @@ from contact.core import arranging
 from contact.inputs import material
 from contact.kernels.arrays import Size
 from contact.kernels.records import CASE
-from ..variables import Table, identifier
+from ..rows import identifier
+from ..variables import Table
 from .component import numbers, places
 
 _METHODS = contact.methods().batched

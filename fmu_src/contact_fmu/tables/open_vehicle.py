@@ -11,17 +11,18 @@ from functools import cache
 
 from contact_models.vehicle.declared import VehicleDeclaration, read
 from contact_models.vehicle.kernels.layout import FARTHEST
-from ..variables import Table, Variable, output, parameter, signal
+from ..rows import output, parameter, signal
+from ..variables import Table, Variable
 from . import vehicle
 from .vehicle import Starts, started
-from .wheel_rail_pair import MOTION, parameters
+from .wheel_rail_pair import MOTION, inputs, parameters
 
 #: What a pair answers.
 ANSWER = tuple(f"{kind}.{axis}" for kind in ("force", "moment") for axis in "xyz")
 #: Unit of an output → usual size.
 _NOMINAL = {"m": 1e-3, "rad": 1e-3, "m/s": 1.0, "rad/s": 1.0, "1": 0.1}
 #: What it is asked: its inputs in the order of the record GIVEN, then the friction.
-QUESTION = (*(name for name, *_ in MOTION), "friction.coefficient")
+QUESTION = (*MOTION, "friction.coefficient")
 #: Why a step is discarded.
 ENDED = "the vehicle is not on the track: it ends here (contact_fmu.track), or initial.distance is not on it"
 ASTRAY = f"a body is more than {FARTHEST:g} m or rad from its place, or has no finite motion"
@@ -88,8 +89,8 @@ def _inputs(declared: VehicleDeclaration) -> Iterable[Variable]:
 def _outputs(declared: VehicleDeclaration) -> Iterable[Variable]:
     given = (*(row.name for row in _parameters(declared)), *(row.name for row in vehicle.inputs()))
     n = 2 * len(declared.wheelsets)
-    for name, unit, about in (*MOTION, ("friction.coefficient", "1", "Coefficient of friction")):
-        yield output(
-            f"wheel[].{name}", f"{about}, to each pair", unit=unit, shape=(n,), nominal=_NOMINAL[unit], depends=given
-        )
+    asked = {row.name: row for row in inputs()}
+    for row in (asked[name] for name in QUESTION):
+        about, nominal = f"{row.description}, to each pair", _NOMINAL[str(row.unit)]
+        yield output(f"wheel[].{row.name}", about, unit=row.unit, shape=(n,), nominal=nominal, depends=given)
     yield from vehicle.motion(declared, given)

@@ -10,7 +10,8 @@ from contact import Status, registry
 from contact.inputs.material import THERMAL_RANGE, Thermal
 from contact.inputs.options import HOT_FACTOR, N_ELEMENTS, N_STRIPS, TEMPERATURE, TEMPERATURE_RANGE
 from contact.results import BEND
-from ..variables import Enumeration, Limits, Variable, of, output, parameter, taken
+from ..rows import Limits, of, output, parameter, taken
+from ..variables import Enumeration, Variable
 
 NORMAL_METHOD = Enumeration("NormalMethod", tuple((m.name, m.title) for m in contact.methods().batched.normal.values()))
 TANGENTIAL_METHOD = Enumeration(
@@ -214,38 +215,24 @@ def _parameters() -> Iterable[Variable]:
     )
 
 
-#: Name and member of each damage, its description and attributes.
-_DAMAGE: tuple[tuple[str, str, str, Limits], ...] = (
-    ("T_gamma", "T_gamma", "Wear number |Fx ξ| + |Fy η|", {"minimum": 0.0, "nominal": 100.0}),
-    (
-        *("wear_rate_pearce_sherratt", "pearce_sherratt", "Tread area worn off, Pearce and Sherratt"),
-        {"minimum": 0.0},
-    ),
-    ("index_burstow", "burstow", "Rolling contact fatigue index per axle pass, Burstow", {}),
-    (
-        *("wear_rate_usfd", "usfd", "Volume worn off a unit of contact area, Sheffield"),
-        {"minimum": 0.0, "nominal": 1e-8},
-    ),
-    (
-        *("archard_depth_max", "archard_depth", "Greatest wear depth, Archard"),
-        {"minimum": 0.0, "nominal": 1e-10},
-    ),
-    (
-        "archard_volume",
-        "archard_volume",
-        "Volume worn off, Archard",
-        {"minimum": 0.0, "nominal": 1e-12},
-    ),
-    ("fatigue_index_surface", "fatigue_index", "Surface fatigue index, Ekberg", {}),
-    ("stress_index_max", "stress_index", "Greatest stress index |q| - k", {"nominal": 1e8}),
-    ("energy_index_max", "energy_index", "Greatest energy index q.w", {"nominal": 1e6}),
+#: Each damage: name, member, attributes.
+_DAMAGE: tuple[tuple[str, str, Limits], ...] = (
+    ("T_gamma", "T_gamma", {"minimum": 0.0, "nominal": 100.0}),
+    ("wear_rate_pearce_sherratt", "pearce_sherratt", {"minimum": 0.0}),
+    ("index_burstow", "burstow", {}),
+    ("wear_rate_usfd", "usfd", {"minimum": 0.0, "nominal": 1e-8}),
+    ("archard_depth_max", "archard_depth", {"minimum": 0.0, "nominal": 1e-10}),
+    ("archard_volume", "archard_volume", {"minimum": 0.0, "nominal": 1e-12}),
+    ("fatigue_index_surface", "fatigue_index", {}),
+    ("stress_index_max", "stress_index", {"nominal": 1e8}),
+    ("energy_index_max", "energy_index", {"nominal": 1e6}),
 )
 
 
 def damage(record: str) -> Iterable[Variable]:
     """Yield the outputs of the damage models, members of the record DAMAGE or TOTAL."""
-    for name, member, description, attributes in _DAMAGE:
-        yield output(f"damage.{name}", description, member=f"{record}.{member}", **attributes)
+    for name, member, attributes in _DAMAGE:
+        yield output(f"damage.{name}", member=f"{record}.{member}", **attributes)
 
 
 def status_and_totals(record: str, speed: str) -> Iterable[Variable]:

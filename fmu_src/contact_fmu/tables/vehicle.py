@@ -12,7 +12,8 @@ from functools import cache
 
 from contact_models.vehicle.declared import VehicleDeclaration, read
 from contact_models.vehicle.kernels.between import LONGEST_PACE, PACE
-from ..variables import Attributes, Table, Variable, output, parameter, signal
+from ..rows import Attributes, output, parameter, signal
+from ..variables import Table, Variable
 from . import solver, wheel_rail_pair
 
 #: Name of a row → its start, a tuple for an array (`contact_fmu.starts`).

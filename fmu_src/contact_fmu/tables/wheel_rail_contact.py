@@ -10,7 +10,8 @@ from typing import Unpack
 from contact.inputs.options import RADIUS
 from contact.inputs.separation import LARGEST_TILT
 from contact.kernels.records import MAX_PATCHES
-from ..variables import Attributes, Enumeration, Table, Variable, of, output, parameter, signal
+from ..rows import Attributes, of, output, parameter, signal
+from ..variables import Enumeration, Table, Variable
 from . import solver
 
 GEOMETRY_KIND = Enumeration(

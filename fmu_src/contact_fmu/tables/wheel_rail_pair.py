@@ -16,8 +16,9 @@ from contact.inputs.options import (
     RADIUS,
     REFERENCE_SPEED,
 )
-from contact.kernels.records import CONTACT, GIVEN, WHEEL_OFFSET
-from ..variables import Enumeration, Table, Variable, of, output, parameter, signal, taken
+from contact.kernels.records import GIVEN, WHEEL_OFFSET
+from ..rows import of, output, parameter, signal, taken
+from ..variables import Enumeration, Table, Variable
 from . import solver
 
 SIDE = Enumeration("Side", (("Left", "the left wheel and rail"), ("Right", "the right wheel and rail")))
@@ -54,76 +55,33 @@ ACCUMULATED = tuple(f"accumulated.{body}.{name}" for body in BODIES for name in 
 WHEEL, RAIL = "wheel.profile", "rail.profile"
 RESOURCES = (WHEEL, RAIL)
 
-#: Inputs in the order of the record GIVEN: name, unit, description.
+#: Inputs in the order of the records GIVEN and WHEEL_OFFSET.
 MOTION = (
-    ("pose.y", "m", "Lateral position of the wheelset's centre, positive to the right"),
-    ("pose.z", "m", "Height of the centre, positive down, 0 with both tape circles on the plane of the rails' tops"),
-    ("pose.roll", "rad", "Roll angle, positive lowers the right wheel"),
-    ("pose.yaw", "rad", "Yaw angle, clockwise seen from above"),
-    (
-        "velocity.x",
-        "m/s",
-        "Forward speed, negative when rolling backwards; creepages refer to its magnitude, but at least to reference_speed",
-    ),
-    ("velocity.y", "m/s", "Lateral velocity of the centre"),
-    ("velocity.z", "m/s", "Vertical velocity of the centre"),
-    ("velocity.roll", "rad/s", "Roll rate"),
-    ("velocity.yaw", "rad/s", "Yaw rate"),
-    ("velocity.spin", "rad/s", "Rotation about the axle, negative when rolling forward"),
-    ("irregularity.y", "m", "Lateral displacement of this rail"),
-    ("irregularity.z", "m", "Vertical displacement of this rail, positive down"),
-    ("irregularity.roll", "rad", "Roll of this rail about its profile's origin"),
-    ("irregularity.y_rate", "m/s", "Rate of irregularity.y as the wheel meets it"),
-    ("irregularity.z_rate", "m/s", "Rate of irregularity.z"),
-    ("irregularity.roll_rate", "rad/s", "Rate of irregularity.roll"),
+    *(f"pose.{name}" for name in ("y", "z", "roll", "yaw")),
+    *(f"velocity.{name}" for name in ("x", "y", "z", "roll", "yaw", "spin")),
+    *(f"irregularity.{name}" for name in ("y", "z", "roll", "y_rate", "z_rate", "roll_rate")),
 )
-_AGAINST = "of the wheel against its wheelset, as its axle and web bend"
-#: Inputs in the order of the record WHEEL_OFFSET: name, description.
-OFFSET = (
-    ("offset.x", f"Longitudinal displacement {_AGAINST}: of its datum, on the axle at the tape circle"),
-    ("offset.y", f"Lateral displacement {_AGAINST}"),
-    ("offset.z", f"Vertical displacement {_AGAINST}, positive down"),
-    ("offset.roll", f"Roll {_AGAINST}"),
-    ("offset.pitch", f"Pitch {_AGAINST}; without effect on a wheel of revolution"),
-    ("offset.yaw", f"Yaw {_AGAINST}"),
-    ("offset.x_rate", "Rate of offset.x"),
-    ("offset.y_rate", "Rate of offset.y"),
-    ("offset.z_rate", "Rate of offset.z"),
-    ("offset.roll_rate", "Rate of offset.roll"),
-    ("offset.pitch_rate", "Rate of offset.pitch; adds to velocity.spin"),
-    ("offset.yaw_rate", "Rate of offset.yaw"),
-)
+OFFSET = tuple(f"offset.{name}" for name in WHEEL_OFFSET.names or ())
 _SPEED = 20.0
 _STARTS = {"velocity.x": _SPEED, "velocity.spin": -_SPEED / RADIUS.usual}
 
-#: Outputs of a patch, the first members of the record CONTACT: name after `patch[k].`, nominal, description.
-PATCH = (
-    ("n", 1e5, "Normal force"),
-    ("fx", 1e4, "Longitudinal creep force on the wheel"),
-    ("fy", 1e4, "Lateral creep force on the wheel, along the contact plane"),
-    ("mx", 10.0, "Moment of the normal pressure about the longitudinal axis"),
-    ("my", 10.0, "Moment of the normal pressure about the lateral axis"),
-    ("mz", 100.0, "Spin moment on the wheel"),
-    ("x", 1e-3, "Point of application of forces and moments, track coordinates, longitudinal"),
-    ("y", 1.0, "Point of application of forces and moments, track coordinates, lateral"),
-    ("z", 1e-2, "Point of application of forces and moments, track coordinates, vertical, positive down"),
-    ("angle", 0.1, "Contact angle; the contact frame is the track frame turned about x by this angle"),
-    ("area", 1e-4, "Contact area"),
-    ("pmax", 1e9, "Greatest contact pressure"),
-    ("longitudinal", 1e-3, "Longitudinal creepage, wheel minus rail"),
-    ("lateral", 1e-3, "Lateral creepage, wheel minus rail"),
-    ("spin", 0.1, "Spin creepage, wheel minus rail"),
-    ("approach", 1e-4, "Rigid approach from first touch, along the normal"),
-    ("rail_y", 1e-2, "Contact position on the profile of the rail, lateral, positive to the field side"),
-    ("rail_z", 1e-2, "Contact position on the profile of the rail, vertical, positive down"),
-    (
-        "wheel_y",
-        1e-2,
-        "Contact position on the profile of the wheel, lateral from the tape circle, positive to the field side",
-    ),
-    ("wheel_z", 1e-2, "Contact position on the profile of the wheel, vertical, positive down"),
-    ("used_friction", 0.1, "Creep force over normal force"),
-)
+#: Outputs of a patch: member of the record CONTACT → usual size.
+PATCH = {
+    **{
+        "N": 1e5,
+        "Fx": 1e4,
+        "Fy": 1e4,
+        "Mx": 10.0,
+        "My": 10.0,
+        "Mz": 100.0,
+        "x": 1e-3,
+        "y": 1.0,
+        "z": 1e-2,
+        "angle": 0.1,
+    },
+    **{"area": 1e-4, "pmax": 1e9, "longitudinal": 1e-3, "lateral": 1e-3, "spin": 0.1, "approach": 1e-4},
+    **{"rail_y": 1e-2, "rail_z": 1e-2, "wheel_y": 1e-2, "wheel_z": 1e-2, "used_friction": 0.1},
+}
 
 
 #: Rows of the damage that accumulates.
@@ -246,11 +204,11 @@ def parameters(inclination: float) -> Iterable[Variable]:
 
 def inputs() -> Iterable[Variable]:
     """Yield the inputs, which the FMU `WheelRailSurfaces` has too, as the outputs."""
-    for (name, unit, description), member in zip(MOTION, GIVEN.names or (), strict=True):
+    for name, member in zip(MOTION, GIVEN.names or (), strict=True):
         used = {"load.kind": ("Position",)} if name == "pose.z" else {}
         given = of("given", member)
         given["start"] = _STARTS.get(name, given["start"])
-        yield signal(name, description, unit=unit, nominal=10.0 if name == "velocity.x" else None, used=used, **given)
+        yield signal(name, nominal=10.0 if name == "velocity.x" else None, used=used, **given)
     yield signal(
         "load.normal_force",
         "Vertical force on the wheel; load.kind says whether friction carries a part of it; not used with Position; "
@@ -262,8 +220,8 @@ def inputs() -> Iterable[Variable]:
         used={"load.kind": ("NormalForce", "VerticalForce")},
     )
     yield signal("friction.coefficient", "Coefficient of friction", **of("case", "mu"))
-    for (name, description), member in zip(OFFSET, WHEEL_OFFSET.names or (), strict=True):
-        yield signal(name, description, **of("wheel_offset", member))
+    for name in OFFSET:
+        yield signal(name, **of("wheel_offset", name.removeprefix("offset.")))
 
 
 def outputs() -> Iterable[Variable]:
@@ -293,8 +251,8 @@ def outputs() -> Iterable[Variable]:
         "patches.count", "Number of patches", integer=True, minimum=0, maximum=PATCHES, member="total.n_patches"
     )
     yield output("patches.area", "Contact area of all patches", minimum=0.0, nominal=1e-4, member="total.area")
-    for (name, nominal, description), of_contact in zip(PATCH, CONTACT.names or (), strict=False):
-        yield output(f"patch[].{name}", description, nominal=nominal, shape=(PATCHES,), member=f"contact.{of_contact}")
+    for member, nominal in PATCH.items():
+        yield output(f"patch[].{member.lower()}", nominal=nominal, shape=(PATCHES,), member=f"contact.{member}")
     yield output("slip.ratio", "Slip area over contact area", minimum=0.0, maximum=1.0)
     yield output("power.friction", "Frictional power", unit="W", minimum=0.0, nominal=1e3)
     yield from solver.damage("total")

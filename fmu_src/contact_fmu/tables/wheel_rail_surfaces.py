@@ -8,7 +8,8 @@ from functools import cache
 
 from contact.geometry.surfaces.pair import SAMPLES
 from contact.inputs.options import MEMBERS, REACH
-from ..variables import Enumeration, Table, Variable, parameter, signal, taken
+from ..rows import parameter, signal, taken
+from ..variables import Enumeration, Table, Variable
 from . import wheel_rail_pair as pair
 
 #: Rows of the pair that surfaces do not have. The resource of the rail has its place, and slices have no bins.
