@@ -36,18 +36,8 @@ def same(record: str, *without: str) -> dict[str, str]:
 
 TURNS = {"roll": "roll_rate", "yaw": "yaw_rate"}
 #: Members of CASE that are numbers of a friction law, and those that follow from other arguments.
-OF_LAW = [
-    "kinetic",
-    "half_speed",
-    "slope",
-    "slope_far",
-    "slope_rate",
-    "gauge_factor",
-    "border",
-    "border_width",
-    "k_A",
-    "k_S",
-]
+OF_LAW = ["kinetic", "half_speed", "slope", "slope_far", "slope_rate", "gauge_factor", "border", "border_width"]
+OF_LAW += ["k_A", "k_S"]
 DERIVED = {"tolerance", "law", "velocity", "warm", "heating", "conformal", "load_kind"}
 DOORS: dict[str, list[Door]] = {
     "case": [

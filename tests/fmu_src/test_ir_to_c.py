@@ -24,25 +24,8 @@ def _both(ir, result, arguments, tmp_path):
     )
     engine.finalize_object()
     (tmp_path / "f.c").write_text(as_c(ir))
-    flags = (
-        "-std=c11",
-        "-pedantic-errors",
-        "-O2",
-        "-ffp-contract=off",
-        "-Wall",
-        "-Wextra",
-        "-Werror",
-        "-fPIC",
-        "-shared",
-    )
-    run(
-        *compiler("linux64"),
-        *flags,
-        tmp_path / "f.c",
-        "-o",
-        tmp_path / "f.so",
-        "-lm",
-    )
+    flags = ("-std=c11", "-pedantic-errors", "-O2", "-ffp-contract=off", "-Wall", "-Wextra", "-Werror", "-fPIC")
+    run(*compiler("linux64"), *flags, "-shared", tmp_path / "f.c", "-o", tmp_path / "f.so", "-lm")
     library = ctypes.CDLL(str(tmp_path / "f.so"))
     kind = ctypes.CFUNCTYPE(result, *arguments)
     return kind(engine.get_function_address("f")), kind(("f", library)), (engine, library)

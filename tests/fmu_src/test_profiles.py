@@ -22,18 +22,8 @@ def test_measured_profiles_are_smoothed_on_request(tmp_path):
     rail, path = profile.named("49E1"), tmp_path / "rail.txt"
     noise = 2e-6 * np.random.default_rng(5).standard_normal(rail.y.size)
     np.savetxt(path, np.stack((rail.y, rail.z + noise), axis=1))
-    words = (
-        "--rail",
-        path,
-        "--wheel",
-        "S1002",
-        "--profile-unit",
-        "m",
-        "--profile-side",
-        "right",
-        "--profile-smoothing",
-        2e-6,
-    )
+    words = ("--rail", path, "--wheel", "S1002", "--profile-unit", "m", "--profile-side", "right")
+    words += ("--profile-smoothing", 2e-6)
     found = chosen(*words)
     wanted = profile.read(path, kind="rail", unit="m", side="right", smoothing=2e-6)
     np.testing.assert_array_equal(found["rail"].angle, wanted.angle)

@@ -17,17 +17,8 @@ CODES = (
     "0 0", "0.000 0.000", "-999 -999", "9999 9999", "-99.9 -99.9", "nan nan", "{y} nan", "inf inf", "{y} -inf", "{y} -999",
     "{y} #N/A", "32767 32767", "1e30 1e30", "{y} 0", "- -", "1.#QNAN 1.#QNAN",
 )  # fmt: skip
-SEPARATORS = (
-    (" ", "."),
-    ("\t", "."),
-    (";", "."),
-    (",", "."),
-    (", ", "."),
-    ("|", "."),
-    (" ", ","),
-    ("\t", ","),
-    (";", ","),
-)
+SEPARATORS = [(separator, ".") for separator in (" ", "\t", ";", ",", ", ", "|")]
+SEPARATORS += [(separator, ",") for separator in (" ", "\t", ";")]
 HEADS = (
     "", "y{0}z\n", "profile of a wheel, 2024-05-01 12:30:00\ny [mm]{0}z [mm]\n", "# y{0}z\n", "No. 17\n\n", "1.5.2024\n",
 )  # fmt: skip

@@ -2,6 +2,9 @@
 
 from pathlib import Path
 
+from contact_models.life.scale import Workers
+from contact_models.life.wear import Life
+
 STRAIGHT = """
 name = "straight"
 length = 2.0
@@ -36,6 +39,14 @@ weight = 1.0
 [steps]
 distance = 4e5
 """
+
+
+def completed(life: Life, *, go_on: bool = False) -> Life:
+    """Complete a study. With `go_on` runs may be too rough to close, as those of two metres are."""
+    with Workers() as pool:
+        while not life.ended:
+            life.step(pool, go_on=go_on)
+    return life
 
 
 def written(folder: Path) -> Path:

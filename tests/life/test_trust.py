@@ -18,20 +18,15 @@ from contact_models.vehicle.kernels.layout import Book
 from contact_models.vehicle.kernels.wheels import count
 from tests.life.short_set import written
 from tests.life.trusts import BAD, GOOD
+from tests.vehicle.parts import completed
 
 
 def test_a_good_run_has_no_warning_and_a_bad_one_names_every_fault():
     assert GOOD.warnings == ()
     said = " ".join(BAD.warnings)
-    for text in (
-        "-49 %",
-        "7 contacts",
-        "2 times",
-        "3 times",
-        "1.2 times the linear critical speed",
-        "end of 1 of its curves",
-    ):
+    for text in ("-49 %", "7 contacts", "2 times", "3 times", "1.2 times the linear critical speed"):
         assert text in said
+    assert "end of 1 of its curves" in said
 
 
 def test_seizure_and_wear_that_no_wheel_in_service_has_are_named_with_a_cure():
@@ -61,9 +56,7 @@ def test_a_run_with_elastic_pressures_and_archards_law_tells_its_seizure(tmp_pat
     for ratio in (0.8, 0.3):
         text = path.read_text(encoding="utf-8").split("[damage.archard]")[0]
         path.write_text(f"{text}[damage.archard]\nseizure_ratio = {ratio}\n", encoding="utf-8")
-        run = VehicleRun(scenario.read(path))
-        while not run.done:
-            run.advance()
+        run = completed(VehicleRun(scenario.read(path)))
         shares.append(run.trust.seizure)
     assert shares == [0.0, 1.0]
 
@@ -85,9 +78,7 @@ def test_the_worst_of_several_runs_keeps_the_largest_residual_and_adds_the_count
 @pytest.fixture(scope="module")
 def lossy(tmp_path_factory) -> VehicleRun:
     """A run whose books say that half of the energy is lost and a wheel has lifted."""
-    run = VehicleRun(scenario.read(written(tmp_path_factory.mktemp("lossy")).parent / "straight.toml"))
-    while not run.done:
-        run.advance()
+    run = completed(VehicleRun(scenario.read(written(tmp_path_factory.mktemp("lossy")).parent / "straight.toml")))
     books = run.simulation.state.books
     books[Book.RESIDUAL] = 0.5 * books[Book.DISSIPATED]
     books[Book.LIFTED] = 1

@@ -15,6 +15,7 @@ from contact_models.life.part import Rail, Wheel, displacement
 from contact_models.life.reprofiling import cut, forecast
 from contact_models.life.scale import Workers
 from contact_models.life.wear import Life
+from tests.life.short_set import completed
 
 METHODS = '[methods]\nnormal = "analyn"\ntangential = "fastrip"\nstrips = 20\nelements = 12\n'
 CURVE = f"""
@@ -56,13 +57,6 @@ def plan(folder: Path, more: str = "", other: str = "", **changes: str):
         (folder / f"{side}.toml").write_text(CURVE.format(side=side), encoding="utf-8")
     (folder / "set.toml").write_text(text, encoding="utf-8")
     return declared_set.read(folder / "set.toml")
-
-
-def completed(life: Life) -> Life:
-    with Workers() as pool:
-        while not life.ended:
-            life.step(pool)
-    return life
 
 
 @pytest.fixture(scope="module")

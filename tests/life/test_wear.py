@@ -16,7 +16,7 @@ from contact_models.life.flange import Flange
 from contact_models.life.part import DENSITY, Wheel, displacement
 from contact_models.life.scale import Workers
 from contact_models.life.wear import Life
-from tests.life.short_set import CURVE, SET, written
+from tests.life.short_set import CURVE, SET, completed, written
 
 EXAMPLES = Path(__file__).parents[2] / "examples" / "scenarios"
 
@@ -28,21 +28,13 @@ def plan(tmp_path) -> Path:
 
 @pytest.fixture(scope="module")
 def life(tmp_path_factory) -> Life:
-    return completed(Life(declared_set.read(written(tmp_path_factory.mktemp("set")))))
+    return completed(Life(declared_set.read(written(tmp_path_factory.mktemp("set")))), go_on=True)
 
 
 def wheel_of(life: Life) -> Wheel:
     """Return the wheel of a study in which all wear alike."""
     (wheel,) = life.wheels.values()
     return wheel
-
-
-def completed(life: Life) -> Life:
-    """Complete a study. Its runs of two metres are too rough to close, which its bookkeeping does not mind."""
-    with Workers() as pool:
-        while not life.ended:
-            life.step(pool, go_on=True)
-    return life
 
 
 @pytest.mark.parametrize(
@@ -128,7 +120,7 @@ def test_resumed_wear_equals_the_uninterrupted_one_bit_for_bit(life):
     second = Life(life.plan)
     second.restore(first.save())
     assert second.mileage == life["mileage"][1]
-    ours, theirs = completed(second).save(), life.save()
+    ours, theirs = completed(second, go_on=True).save(), life.save()
     assert all(np.array_equal(ours[name], theirs[name]) for name in theirs)
 
 

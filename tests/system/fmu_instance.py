@@ -93,6 +93,31 @@ def discarded(fmu: Instance, time: float | None = None, h: float = 1e-3) -> str:
     return fmu.log[0][1]
 
 
+def recovers(fmu: Instance, values: dict[str, float], says: str, times: int = 1) -> None:
+    """Assert that steps with these values are discarded with a message that begins so, and that the instance then goes on."""
+    before, good = fmu.all("output"), fmu.read(values)
+    fmu.update(values)
+    for _ in range(times):
+        assert discarded(fmu).startswith(says)
+    assert fmu.all("output") == before
+    fmu.update(good)
+    fmu.step()
+
+
+def goes_on(fmu, other, drive: Callable) -> object:
+    """Assert that a saved state goes on with the same bits, restored and, serialised, in an `other` instance, of any FMI.
+
+    `drive(instance)` makes steps and returns what they gave. Return the same.
+    """
+    state = fmu.fmu.getFMUState()
+    content, wanted = fmu.fmu.serializeFMUState(state), drive(fmu)
+    for one, its in ((fmu, state), (other, other.fmu.deserializeFMUState(content))):
+        one.fmu.setFMUState(its)
+        one.fmu.freeFMUState(its)
+        assert drive(one) == wanted
+    return wanted
+
+
 def answered_extremes(fmu: Instance, trials: int, chosen: Callable[[np.random.Generator], dict]) -> int:
     """Step from inputs of 1e-300 to 1e300, a few at a time, beside the `chosen` ones. Outputs are finite or discarded.
 

@@ -53,6 +53,11 @@ _PATCH = ("n", "fx", "fy", "mx", "my", "mz", "x", "y", "z", "angle", "area", "pm
 _PATCH += ("approach", "rail_y", "rail_z", "wheel_y", "wheel_z", "used_friction")
 
 
+#: Outputs whose differences are taken as they are.
+_OF_ONE = {"x", "y", "z", "deflection_y", "deflection_z", "rail_y", "rail_z", "wheel_y", "wheel_z", "Y_over_Q"}
+_OF_ONE |= {"used_friction", "longitudinal", "lateral", "angle", "spin", "ratio"}
+
+
 def mirrored(values: dict[str, float]) -> dict[str, float]:
     """Return the mirrored values, for the other side."""
     even = ("pose.z", "velocity.x", "velocity.z", "velocity.spin", "irregularity.z", "irregularity.z_rate")
@@ -61,16 +66,34 @@ def mirrored(values: dict[str, float]) -> dict[str, float]:
     return {name: -value if name in odd else value for name, value in values.items()}
 
 
-def solved(values: dict[str, float], pair: WheelRailPair) -> PairSolution:
-    """Return the solver's result for inputs by name."""
+def warm(fmu):
+    """Set MOTION and strips that interact, which start from the last step, in an instance and return it."""
+    fmu.update({**MOTION, "method.normal": list(METHODS.normal).index("strip_halfspace") + 1})
+    return fmu
+
+
+def trajectory(fmu, start: int) -> list[dict[str, float]]:
+    """Return the outputs of four steps with changing inputs from step `start` on."""
+    rows = []
+    for k in range(start, start + 4):
+        fmu.update({"pose.y": 6e-3 * math.sin(0.4 * k), "load.normal_force": 8e4 + 1e4 * math.cos(k)})
+        fmu.step(k * 1e-3)
+        rows.append(fmu.all("output"))
+    return rows
+
+
+def solved(values: dict[str, float], pair: WheelRailPair, **place: float) -> PairSolution:
+    """Return the solver's result for inputs by name, on surfaces at a place."""
 
     def part(name: str, *fields: str) -> list[float]:
         return [values.get(f"{name}.{field}", 0.0) for field in fields]
 
+    load = {} if values.get("load.kind", 1) == 2 else {"load": values.get("load.normal_force", 80e3)}
+    if values.get("load.kind") == 3:
+        load = {"vertical": load["load"]}
     return pair.solve(
         Pose(*part("pose", "y", "z", "roll", "yaw")),
         Velocity(*part("velocity", "x", "y", "z", "roll", "yaw", "spin")),
-        load=None if values.get("load.kind", 1) == 2 else values.get("load.normal_force", 80e3),
         irregularity=Irregularity(*part("irregularity", "y", "z", "roll", "y_rate", "z_rate", "roll_rate")),
         friction=values.get("friction.coefficient", 0.3),
         rail=ElasticRail(
@@ -79,6 +102,8 @@ def solved(values: dict[str, float], pair: WheelRailPair) -> PairSolution:
             *part("rail", "preload_y", "preload_z"),
         ),
         offset=WheelOffset(*part("offset", *OFFSET)),
+        **load,
+        **place,
     )
 
 
@@ -134,21 +159,7 @@ def scale(name: str, values: dict[str, float], wanted: dict[str, float]) -> floa
         return load * 1.0
     if leaf in ("mx", "my", "mz"):
         return load * 1e-2
-    if leaf in (
-        "x",
-        "y",
-        "z",
-        "deflection_y",
-        "deflection_z",
-        "rail_y",
-        "rail_z",
-        "wheel_y",
-        "wheel_z",
-        "Y_over_Q",
-        "used_friction",
-    ):
-        return 1.0
-    if leaf in ("longitudinal", "lateral", "angle", "spin", "ratio"):
+    if leaf in _OF_ONE:
         return 1.0
     return max(abs(wanted[name]), 1e-300)
 

@@ -8,16 +8,8 @@ CREEPAGES = {"creepage.longitudinal": 1e-3, "creepage.lateral": -5e-4, "creepage
 CONTACT = ("force.x", "force.y", "moment.z", "force.n", "approach", "power.friction")
 BY = (*CREEPAGES, "load.normal_force", "friction.coefficient")
 WRENCH = ("force.x", "force.y", "force.z", "moment.x", "moment.y", "moment.z", "wheelset.z")
-MOTION = (
-    "pose.y",
-    "pose.roll",
-    "pose.yaw",
-    "velocity.y",
-    "velocity.yaw",
-    "velocity.spin",
-    "irregularity.y",
-    "load.normal_force",
-)
+MOTION = ("pose.y", "pose.roll", "pose.yaw", "velocity.y", "velocity.yaw", "velocity.spin", "irregularity.y")
+MOTION += ("load.normal_force",)
 
 
 def references(fmu, *groups):

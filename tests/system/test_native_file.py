@@ -56,21 +56,9 @@ C_LIBRARY = {
         "memmove",
         "memset",
     ),
-    *(
-        "realloc",
-        "sched_yield",
-        "snprintf",
-        "strchr",
-        "strcmp",
-        "strcpy",
-        "strlen",
-        "strtod",
-        "strncmp",
-        "strncpy",
-        "vsnprintf",
-    ),
+    *("realloc", "sched_yield", "snprintf", "strchr", "strcmp", "strcpy", "strlen", "strtod", "strncmp", "strncpy"),
     *("acos", "asin", "asinh", "atan", "atan2", "atanh", "cos", "exp", "expm1", "hypot", "log", "pow", "sin", "sincos"),
-    *("sqrt", "tan"),
+    *("sqrt", "tan", "vsnprintf"),
 }
 
 

@@ -11,7 +11,7 @@ from contact_case import CREEPAGES, NAME, separation
 from contact_case_fmi3 import FIELDS, SHAPE, arrays, pose
 from fmpy.fmi1 import FMICallException
 from fmpy.fmi3 import FMU3Slave
-from fmu_instance import DISCARD, ERROR, refused
+from fmu_instance import DISCARD, ERROR, goes_on, refused
 from random_cases import random_case
 from thesis_case import THESIS
 
@@ -166,11 +166,7 @@ def test_a_bad_input_is_discarded_by_name_and_the_instance_recovers(fmu):
     fmu.step()
     before = fmu.all("output")
     for name, value, said in (
-        (
-            "geometry.g",
-            [*[0.0] * 6, math.nan, *[0.0] * 34],
-            "geometry.g[7] = nan is not finite",
-        ),
+        ("geometry.g", [*[0.0] * 6, math.nan, *[0.0] * 34], "geometry.g[7] = nan is not finite"),
         ("speed", -1.0, "speed = -1 is outside the allowed range [0, inf["),
     ):
         good = fmu[name]
@@ -245,17 +241,7 @@ def test_a_restored_or_serialised_state_continues_bit_by_bit(fmu, open_native_fm
         return rows
 
     trajectory(fmu, 0)
-    state = fmu.fmu.getFMUState()
-    content = fmu.fmu.serializeFMUState(state)
-    wanted = trajectory(fmu, 4)
-    fmu.fmu.setFMUState(state)
-    assert trajectory(fmu, 4) == wanted
-    fmu.fmu.freeFMUState(state)
-    other = open_native_fmi3()
-    copy = other.fmu.deserializeFMUState(content)
-    other.fmu.setFMUState(copy)
-    other.fmu.freeFMUState(copy)
-    assert trajectory(other, 4) == wanted
+    goes_on(fmu, open_native_fmi3(), lambda one: trajectory(one, 4))
 
 
 def test_reset_restores_every_start(fmu, open_native_fmi3):

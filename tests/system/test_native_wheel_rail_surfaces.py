@@ -9,15 +9,15 @@ from pathlib import Path
 import fmpy
 import numpy as np
 import pytest
+from differences import derivative, quotient
 from fmpy.fmi1 import FMICallException
 from fmu_instance import DISCARD, Instance, answered_extremes
 from fmu_instance_fmi3 import Instance3
-from pair_case import METHODS, R0, expected, scale
+from pair_case import METHODS, R0, expected, scale, solved
 
 from contact.errors import ContactError
 from contact.geometry import profile
 from contact.geometry.surfaces import Flat, Polygon, SurfacePair, WheelSurface
-from contact.geometry.wheelset import Irregularity, Pose, Velocity
 from contact.kernels.entries.surfaces import HEAD
 from contact.pair import WheelRailPair
 from contact_fmu import profiles, resources, surfaces
@@ -86,10 +86,6 @@ def open_fmu(folders, freed):
     return open_fmu
 
 
-def part(values: dict[str, float], name: str, *fields: str) -> list[float]:
-    return [values.get(f"{name}.{field}", 0.0) for field in fields]
-
-
 def start_values(given: dict[str, float]) -> dict[str, float]:
     fine = {"resolution.n_strips": 24, "resolution.n_elements": 16, "velocity.x": SPEED, "velocity.spin": -SPEED / R0}
     methods = {"method.normal": list(METHODS.normal).index("strip_halfspace") + 1}
@@ -98,18 +94,6 @@ def start_values(given: dict[str, float]) -> dict[str, float]:
 
 def solver(pair: SurfacePair) -> WheelRailPair:
     return WheelRailPair(pair, normal="strip_halfspace", n_strips=24, n_elements=16)
-
-
-def solved(pair: WheelRailPair, values: dict[str, float], station: float, rotation: float):
-    load = {"vertical" if values.get("load.kind") == 3 else "load": 80e3}
-    return pair.solve(
-        Pose(*part(values, "pose", "y", "z", "roll", "yaw")),
-        Velocity(*part(values, "velocity", "x", "y", "z", "roll", "yaw", "spin")),
-        station=station,
-        rotation=rotation,
-        irregularity=Irregularity(*part(values, "irregularity", "y", "z", "roll")),
-        **load,
-    )
 
 
 @pytest.mark.parametrize("case", CASES)
@@ -123,7 +107,7 @@ def test_the_fmu_gives_the_solvers_result_along_the_way(open_fmu, case):
     for station, rotation in sweep:
         fmu.update({"pose.station": station, "pose.rotation": rotation})
         fmu.step()
-        wanted = expected(solved(reference, values, station, rotation), SPEED)
+        wanted = expected(solved(values, reference, station=station, rotation=rotation), SPEED)
         worst = {name: abs(fmu[name] - x) / scale(name, values, wanted) for name, x in wanted.items()}
         assert max(worst.values()) <= 1e-9, (station, max(worst, key=worst.get), max(worst.values()))
         patches.add(int(wanted["patches.count"]))
@@ -169,14 +153,8 @@ def test_directional_derivatives_follow_station_and_rotation(open_fmu):
     fmu.initialize()
     z = fmu["wheelset.z"]
     fmu.update({"pose.z": z + 3e-4})
-    name = fmu.variables["pose.rotation"].valueReference
-    force = fmu.variables["force.z"].valueReference
-    found = fmu.fmu.getDirectionalDerivative([force], [name], [1.0])[0]
-    ends = []
-    for turned in (-1e-4, 1e-4):
-        fmu.update({"pose.rotation": 0.05 + turned})
-        ends.append(fmu["force.z"])
-    wanted = (ends[1] - ends[0]) / 2e-4
+    turning = ["force.z"], {"pose.rotation": 1.0}
+    found, wanted = derivative(fmu, *turning), quotient(fmu, *turning, 5e-5)
     assert abs(wanted) > 1e5
     assert found == pytest.approx(wanted, rel=0.02)
 
@@ -195,30 +173,21 @@ def spoilt(fault: str) -> dict[str, bytes]:
     rail = numbers_of(content[RAIL])
     slices, paths = int(rail[0]), int(rail[1])
     runs = HEAD + slices + 12 * slices * paths
-    if fault == "unordered slices":
-        rail[HEAD + 3], rail[HEAD + 4] = rail[HEAD + 4], rail[HEAD + 3]
-    elif fault == "a gap between runs":
-        rail[runs] = rail[runs + 1]
-    elif fault == "paths beyond the last":
-        rail[runs + 1] = paths + 1
-    elif fault == "half a path":
-        rail[runs] += 0.5
-    elif fault == "non-matching widths":
-        rail[1] += 1
-    elif fault == "no slices":
-        rail[0] = 0
-    elif fault == "negative slices":
-        rail[0] = -slices
-    elif fault == "huge sizes":
-        rail[:3] = 1e15
-    elif fault == "slices at one place":
-        rail[HEAD + 4] = np.nextafter(rail[HEAD + 3], 1.0)
-    elif fault == "a point far away":
-        rail[HEAD + slices + 100] = -1e300
-    elif fault == "only a head":
-        rail = rail[:HEAD]
-    elif fault == "less than a head":
-        rail = rail[:4]
+    first: dict[str, tuple[int, object]] = {  # where new numbers begin
+        "unordered slices": (HEAD + 3, rail[[HEAD + 4, HEAD + 3]]),
+        "a gap between runs": (runs, rail[runs + 1]),
+        "paths beyond the last": (runs + 1, paths + 1),
+        "half a path": (runs, rail[runs] + 0.5),
+        "non-matching widths": (1, paths + 1),
+        "no slices": (0, 0),
+        "negative slices": (0, -slices),
+        "huge sizes": (0, 3 * [1e15]),
+        "slices at one place": (HEAD + 4, np.nextafter(rail[HEAD + 3], 1.0)),
+        "a point far away": (HEAD + slices + 100, -1e300),
+    }
+    at, new = first.get(fault, (0, rail[0]))
+    rail[at : at + np.size(new)] = new
+    rail = rail[: {"only a head": HEAD, "less than a head": 4}.get(fault)]
     return {**content, RAIL: packed("rail", rail)}
 
 

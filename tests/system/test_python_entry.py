@@ -210,16 +210,7 @@ def test_every_pointer_may_be_null(fmu):
     fmu.initialize()
     library, c = fmu.fmu.dll, ctypes.c_void_p(fmu.fmu.component)
     one = ctypes.c_size_t(1)
-    for call in (
-        "GetReal",
-        "SetReal",
-        "GetInteger",
-        "SetInteger",
-        "GetString",
-        "SetString",
-        "GetBoolean",
-        "SetBoolean",
-    ):
+    for call in (verb + kind for verb in ("Get", "Set") for kind in ("Real", "Integer", "String", "Boolean")):
         assert library[f"fmi2{call}"](c, None, one, None) == ERROR
         assert library[f"fmi2{call}"](None, None, one, None) == ERROR
     for call in ("GetFMUstate", "SetFMUstate"):

@@ -9,6 +9,7 @@ from pathlib import Path
 from contact.geometry import profile
 from contact.geometry.profile import Profile
 from contact.geometry.surfaces import WheelSurface
+from contact_models.runs import result
 from contact_models.runs.run import VehicleRun
 from contact_models.runs.scenario import Declaration, Methods, Profiles, Recording, Scenario
 from contact_models.vehicle.course import lay
@@ -57,6 +58,13 @@ def scenario(**changes) -> Scenario:
     }
     declared = Declaration(**(given | changes))
     return Scenario(declared, *Profiles().load(Path()), read(declared.vehicle))
+
+
+def interrupted(run: VehicleRun) -> None:
+    """Complete a run, and another one from the state that it has now. Assert that both have the same results."""
+    other = VehicleRun(run.scenario)
+    other.restore(run.save())
+    assert result.dataset(completed(other)).identical(result.dataset(completed(run)))
 
 
 def completed(run: VehicleRun) -> VehicleRun:

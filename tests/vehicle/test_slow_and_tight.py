@@ -8,6 +8,7 @@ import pytest
 from contact.errors import PlausibilityWarning
 from contact_models.runs import scenario
 from contact_models.runs.run import VehicleRun
+from tests.vehicle.parts import completed
 
 DEPOT = """name = "depot"
 length = 12.0
@@ -35,9 +36,7 @@ def made(path, text):
 @pytest.mark.slow
 def test_a_wheelset_runs_through_a_curve_of_15_m(tmp_path):
     """The outer, left wheel runs at its flange; energy closes, no wheel lifts, and nearly all contacts have a solution."""
-    run = made(tmp_path, DEPOT)
-    while not run.done:
-        run.advance()
+    run = completed(made(tmp_path, DEPOT))
     series, trust = run.series, run.trust
     inside = (series["distance"] > 6.0) & (series["distance"] < 8.5)
     assert series["curvature"][inside] == pytest.approx(1.0 / 15.0, rel=1e-2)

@@ -1,8 +1,7 @@
-/* Every function of FMI 2.0 and 3.0, called wrongly: wrong LIBRARY GUID URI PATH RANDOM_TRIALS (URI
- * and PATH of the resources). Each trial is a process of its
- * own, so a call that kills its host is one failure. Every pointer of every function is NULL once in every state: the answer is
- * an Error and one message. Then random functions are called in sequence with random pointers and counts, and forged
- * states are set. POSIX only. */
+/* Every function of FMI 2.0 and 3.0, called wrongly: wrong LIBRARY GUID URI PATH RANDOM_TRIALS (URI and PATH of the resources).
+ * Each trial is a process of its own, so a call that kills its host is one failure. Every pointer of every function is NULL once
+ * in every state: the answer is an Error and one message. Then random functions are called in sequence with random pointers and
+ * counts, and forged states are set. POSIX only. */
 #include <stdint.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -218,14 +217,14 @@ static int end_of(pid_t child)
     return WEXITSTATUS(how);
 }
 
-/* The number of pointers of a call: a NULL for each in turn must be refused with one message (the first one is the instance). */
+/* The number of pointers of a call of an instance, a NULL for each of which must be refused with one message (the first one is
+ * the instance). */
 static int pointers_of(int row)
 {
     int in_pipe[2], n = 0;
     if (pipe(in_pipe)) exit(2);
     pid_t child = fork();
     if (!child) {
-        reach(INST, 1);
         call(row);
         if (write(in_pipe[1], &turn, sizeof turn) != sizeof turn) _exit(2);
         _exit(0);
@@ -237,25 +236,43 @@ static int pointers_of(int row)
     return n;
 }
 
+/* Every NULL in one situation. Each trial is a process that begins with a copy of the instance. */
+static void in_situation(int situation, const int *pointers)
+{
+    for (int row = 0; row < n_calls(); row++)
+        for (int k = 0; k < pointers[row]; k++) {
+            pid_t child = fork();
+            if (!child) {
+                null_one = k;
+                int answer = call(row);
+                _exit(answer != ANSWER_ERROR || messages != (replaced != instance)); /* no instance, no message */
+            }
+            check(end_of(child) == ANSWER_OK, names[version - 2][row], situations[situation]);
+        }
+}
+
 static int systematic(void)
 {
-    int done = 0;
+    int pointers[256], done = 0;
+    reach(INST, 1);
     for (int row = 0; row < n_calls(); row++) {
-        int n = pointers_of(row);
-        check(n > 0, names[version - 2][row], "does not return");
-        for (int situation = 0; situation < N_SITUATIONS; situation++)
-            for (int is_cs = !HAS_EXCHANGE; is_cs < 2; is_cs++)
-                for (int k = 0; k < n; k++, done++) {
-                    pid_t child = fork();
-                    if (!child) {
-                        reach(situation, is_cs);
-                        null_one = k;
-                        int answer = call(row);
-                        _exit(answer != ANSWER_ERROR || messages != (replaced != instance)); /* no instance, no message */
-                    }
-                    check(end_of(child) == ANSWER_OK, names[version - 2][row], situations[situation]);
-                }
+        pointers[row] = pointers_of(row);
+        check(pointers[row] > 0, names[version - 2][row], "does not return");
     }
+    for (int situation = 0; situation < N_SITUATIONS; situation++)
+        for (int is_cs = !HAS_EXCHANGE; is_cs < 2; is_cs++) {
+            fflush(stdout);
+            pid_t child = fork();
+            if (!child) {
+                failures = 0;
+                reach(situation, is_cs);
+                in_situation(situation, pointers);
+                fflush(stdout);
+                _exit(failures != 0);
+            }
+            check(end_of(child) == ANSWER_OK, "wrong calls", situations[situation]);
+            for (int row = 0; row < n_calls(); row++) done += pointers[row];
+        }
     return done;
 }
 
