@@ -141,10 +141,11 @@ def _processor() -> str:
 
 
 def sources() -> list[Path]:
-    """Return the sources of the library: all files with kernels, the C interface and the builder."""
+    """Return the sources of the library: all files with kernels, the C interface, the builder and the tables that it holds."""
     builder = [path for name in ("core", "compile", "kernels") for path in (_HERE / name).rglob("*.py")]
     in_c = [path for name in ("c", "include") for path in (_HERE / name).iterdir()]
-    return sorted({*(path for path, _ in modules()), *builder, *in_c})
+    tables = [*(_HERE / "theory").glob("*.py"), *(_HERE / "data").glob("*creep*.csv")]  # `contact.compile.c_tables`
+    return sorted({*(path for path, _ in modules()), *builder, *in_c, *tables})
 
 
 @cache
