@@ -23,7 +23,7 @@ def assert_held(name, values, reached):
 
 @pytest.mark.parametrize(("method", "force", "moment", "adhesion"), [
     ("fastrip", (0.0136, 0.0422, 0.0973), (0.0080, 0.0252, 0.0551), 0.0221),  # bar .0165 / .058 / .17
-    ("fastrip_mapped", (0.0016, 0.0069, 0.0285), (0.0007, 0.0025, 0.0101), 0.0223),  # bar .009 / .027 / .06; .007 / .022
+    ("fastrip_mapped", (0.0016, 0.0053, 0.0186), (0.0012, 0.0043, 0.0157), 0.0267),  # bar .009 / .027 / .06; .007 / .022
     ("fastsim", (0.0320, 0.0906, 0.1827), (0.0331, 0.0860, 0.1321), 0.0665),
     ("fastsim_one", (0.0567, 0.1795, 0.3010), (0.0559, 0.1383, 0.2580), 0.140),  # CONTACT's own: .0547 / .1774 / .2900
     ("fastsim_elliptic", (0.0372, 0.1002, 0.1910), (0.0167, 0.0513, 0.1542), 0.130),
@@ -114,7 +114,7 @@ def test_default_answers_on_difficult_patches_and_where_analyn_fails_it_says_so(
     force, pressure, gap_error = accuracy.errors_of(reference.wheel_rail_patches())
     assert force.mean() < 0.017
     # .049 with a coarser table of effective creepages, .097 when every patch had one equivalent ellipse
-    assert force.max() < 0.053
+    assert force.max() < 0.055  # .0529 while the moment of slender ellipses counted more in the effective creepages
     # a peak narrower than a strip: 20, 24, 30, 48 strips give 5.1, 3.5, 1.9, 1.2 % too little
     assert np.abs(pressure).max() < 0.053
     assert gap_error.max() < 0.018  # .010 at the middles of strips; here beside them, at 12 of 20

@@ -49,8 +49,31 @@ def test_errors_on_cases_between_the_nodes_are_small():
     assert errors["force"].mean() < 0.001
     assert np.percentile(errors["force"], 95) < 0.004
     assert errors["force"].max() < 0.02
-    assert errors["moment"].mean() < 0.0007
-    assert errors["moment"].max() < 0.01
+    assert errors["moment"].mean() < 0.0009
+    assert errors["moment"].max() < 0.015
+
+
+#: a/b, alpha and beta [°], r between nodes, where an ellipse begins to slip as a whole; Fx and Fy over mu N by our half space
+#: with 160 x 160 elements on Hertz's pressure.
+BETWEEN = (
+    (4.0, 68.6, -82.1, 1.487, -0.0556, 0.8054),
+    (4.0, 18.0, -69.0, 1.519, -0.3744, 0.7582),
+    (9.0, 59.4, -32.2, 3.90, -0.7376, -0.3503),
+    (9.0, 83.2, -31.5, 10.07, -0.2721, -0.7205),
+    (17.5, 80.5, -41.0, 11.36, -0.3868, -0.3796),
+    (17.5, 59.4, -32.2, 3.90, -0.7535, -0.3476),
+)
+
+
+def test_slender_ellipses_that_begin_to_slip_have_no_jump_between_the_nodes():
+    """Changes that the moment alone asked for jumped from node to node: .065 of mu N off, .040 in the mean of these six."""
+    off = []
+    for a_over_b, alpha, beta, r, *force in BETWEEN:
+        at = creep_table.creepage(math.log(a_over_b), math.radians(alpha), math.radians(beta), r / (r + table.R0))
+        found = forces(a_over_b, (at.longitudinal, at.lateral, at.spin), n=20)
+        off.append(math.hypot(*(found[:2] - force)))
+    assert max(off) < 0.026
+    assert sum(off) < 6 * 0.015
 
 
 @pytest.mark.parametrize("creepage", [(1e-3, -4e-4, 0.3), (4e-4, 8e-4, -0.9), (0.0, 1e-3, 0.0)])
@@ -112,7 +135,7 @@ def test_the_fit_reproduces_the_file():
         assert np.abs(changes[at]).max() > 0.01
 
 
-@pytest.mark.parametrize("at", [(6, 2, 4, 11), (6, 3, 4, 11)])
+@pytest.mark.parametrize("at", [(5, 4, 3, 11), (5, 5, 3, 11)])
 def test_dissipation_is_the_work_on_the_given_creepages(at):
     """Dissipation is the work of the forces on the given creepages, although the effective ones differ considerably."""
     a_over_b, creepage = node(*at)
