@@ -13,7 +13,7 @@ from contact.kernels.pipeline import set_rolling
 from contact.kernels.rows import Strip
 from contact.kernels.tangential.effective import set_effective
 from contact.kernels.tangential.fastrip_mapped import Uneven, energy, forces_of, set_shapes, slip_factor
-from contact.kernels.tangential.lanes import LANES
+from contact.kernels.tangential.lanes import LANES, room_for
 from contact.kernels.tangential.mapped_lanes import set_block
 from contact.kernels.tangential.march import march
 from contact.kernels.tangential.stick_zone import add_zone
@@ -57,7 +57,7 @@ def roll_together(n, creepage, spin, case, workspace):
 
     The rows of `_Borne` then hold the forces of each strip.
     """
-    strips, elements, lanes = workspace.strips, workspace.rule.elements, workspace.space.lanes
+    strips, elements = workspace.strips, workspace.rule.elements
     set_rolling(strips, n, case)
     of_patch = set_shapes(0, n, workspace)
     _copy_with(n, 2, case.vx, case.vy, case.phi + spin, strips)
@@ -67,6 +67,7 @@ def roll_together(n, creepage, spin, case, workspace):
         set_effective(strips, copy * n, (copy + 1) * n, case, of_patch, workspace.tables)
     last = COPIES * n
     for block in range(0, last, LANES):
+        lanes = workspace.space.lanes[: room_for(last - block)]
         set_block(strips, block, last, case, workspace.tables.kalker, of_patch, lanes)
         march(Uneven(0), elements, lanes, workspace.space.trace)
         add_zone(elements, lanes)

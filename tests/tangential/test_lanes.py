@@ -2,8 +2,10 @@
 
 import itertools
 
+import numpy as np
 import pytest
 
+import contact
 from contact.kernels.tangential import fastrip, fastsim, mapped_lanes
 from contact.kernels.tangential.lanes import LANES, N_LANE_ROWS, TRACE_WIDTH, Now, Row, Trace, Varying, after
 from contact.kernels.tangential.march import March
@@ -21,3 +23,13 @@ def test_rows_of_a_method_lie_between_those_of_the_march_and_of_varying_friction
 def test_columns_of_the_trace_follow_the_output_of_an_element():
     assert after(Now) == min(Trace)
     assert after(Trace) == TRACE_WIDTH
+
+
+@pytest.mark.parametrize("n_strips", [17, 18, 20, 24, 25, 31])
+def test_the_last_strips_of_a_patch_bear_the_tractions_of_their_mirror_images(n_strips):
+    """The first sixteen march side by side. The few that are left march in fewer lanes."""
+    gap = contact.Separation.hertzian(A=1.2, B=0.8)
+    sol = contact.solve(gap, contact.Creepage(1.5e-3), load=80e3, friction=0.3, n_strips=n_strips, normal="hertz")
+    for field in (sol.qx, sol.stick):
+        assert np.ptp(field) > 0.0
+        np.testing.assert_allclose(field[::-1], field, rtol=0, atol=1e-9 * np.abs(field).max())

@@ -28,7 +28,7 @@ from contact.kernels.arrays import Case, Result, Workspace
 from contact.kernels.rows import Element, Field, Strip
 from contact.kernels.tangential.effective import set_effective
 from contact.kernels.tangential.falling import Fallen, let_fall, set_loss, sum_up
-from contact.kernels.tangential.lanes import FAR, LANES, N_LANE_ROWS, Now, decay_and_lag, turned
+from contact.kernels.tangential.lanes import FAR, LANES, Now, decay_and_lag, marching, room_for, turned
 from contact.kernels.tangential.mapped_lanes import Lane, set_block
 from contact.kernels.tangential.mapping import mapped, set_aspects, set_centres, slid_at
 from contact.kernels.tangential.march import (
@@ -92,7 +92,7 @@ def _slide(rule, place, bound, slope, lanes):
     """Turn the direction with unequal flexibilities (mapped_strip.md 3, step 3), and set the slip of the fields."""
     s, step, _, stretch = place
     ends = 0
-    for l in range(LANES):
+    for l in range(marching(lanes)):
         Xs, Ys, spin, r = lanes[Lane.XS + l], lanes[Lane.YS + l], lanes[Lane.SPIN + l], lanes[Lane.R + l]
         slid, x, y, left = lanes[March.SLIPS + l], lanes[March.EX + l], lanes[March.EY + l], lanes[March.LEFT + l]
         trial_x, trial_y, used = lanes[March.TRIAL_X + l], lanes[March.TRIAL_Y + l], lanes[March.TRIAL_USED + l]
@@ -125,11 +125,8 @@ def _slide(rule, place, bound, slope, lanes):
 
 @kernel
 def _map(per_bound, lanes):
-    """Map the traction of the strips that stick.
-
-    The number of lanes is LANES, but unknown to the compiler. It would unroll so short a loop instead of using vectors.
-    """
-    for l in range(lanes.size // N_LANE_ROWS):
+    """Map the traction of the strips that stick."""
+    for l in range(marching(lanes)):
         x, y, slides = lanes[March.TX + l] * per_bound, lanes[March.TY + l] * per_bound, lanes[March.SLIPS + l]
         map_x, map_y = mapped(x, y, lanes[Lane.POLE + l], lanes[Lane.N + l])
         lanes[Now.X + l] = map_x + slides * (lanes[March.EX + l] - map_x)
@@ -140,19 +137,19 @@ def _map(per_bound, lanes):
 def _leave(rule, s, k, elements, lanes):
     """Map the traction where a strip sticks, and add the element to the sums (mapped_strip.md 3, step 4)."""
     stick, ended = 0, 0
-    for l in range(LANES):
+    for l in range(marching(lanes)):
         again = lanes[Lane.NEXT + l] > -1.5 or rule.shown != 0
         ended += 1 if lanes[Lane.NEXT + l] == s else 0
         stick += 1 if lanes[March.SLIPS + l] < 0.5 and again else 0
         lanes[Now.X + l], lanes[Now.Y + l] = lanes[March.EX + l], lanes[March.EY + l]
     if ended > 0:
-        for l in range(LANES):
+        for l in range(marching(lanes)):
             if lanes[Lane.NEXT + l] == s:
                 lanes[Lane.NEXT_X + l], lanes[Lane.NEXT_Y + l] = lanes[March.EX + l], lanes[March.EY + l]
     if stick > 0:
         _map(1.0 / elements[Element.SINE, k] ** 2, lanes)
     step, weight = elements[Element.STEP, k], elements[Element.SINE, k] * elements[Element.DX, k]
-    for l in range(LANES):
+    for l in range(marching(lanes)):
         counts = weight if lanes[Lane.NEXT + l] > -1.5 else 0.0
         lanes[Lane.SUM_X + l] += counts * lanes[Now.X + l]
         lanes[Lane.SUM_Y + l] += counts * lanes[Now.Y + l]
@@ -267,6 +264,7 @@ def roll_patch(first: int, last: int, case: Case, of_patch: OfPatch, workspace: 
             _march_under(block, last, case, factor, of_patch, workspace)
             set_loss(strips, block, last, case, lanes)
     for block in range(first, last, LANES):
+        lanes = workspace.space.lanes[: room_for(LANES if falling else last - block)]
         if falling:
             _march_under(block, last, case, factor, of_patch, workspace)
             sum_up(elements, lanes, trace)

@@ -68,9 +68,27 @@ class Varying(Row):
     SHED_Y = auto()
 
 
+#: A block of fewer strips marches in so many lanes, or a multiple of it: whole vectors of any processor.
+_VECTOR = 8
 #: Upper limit of the normalised distance over which a direction turns in one step. At it, the turn is complete.
 FAR = 1e3
 _OUTPUT = after(Now)  # length of the output of an element
+
+
+@kernel
+def room_for(n):
+    """Return the size of a view of `lanes` from which `marching` knows that at most the first n > 0 strips are left.
+
+    The rest of a patch, often four strips of 20, then takes half a block. The compiler does not know the number of lanes. It
+    would unroll so short a loop instead of using vectors.
+    """
+    return (N_LANE_ROWS - 1) * LANES + min((n + _VECTOR - 1) // _VECTOR * _VECTOR, LANES)
+
+
+@kernel
+def marching(lanes):
+    """Return the number of lanes that march."""
+    return lanes.size - (N_LANE_ROWS - 1) * LANES
 
 
 @kernel

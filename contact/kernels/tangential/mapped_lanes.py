@@ -7,7 +7,7 @@ from contact.core import kernel
 from contact.kernels import kalker
 from contact.kernels.rows import Strip
 from contact.kernels.tangential.fastsim import NO_FRICTION
-from contact.kernels.tangential.lanes import LANES, N_LANE_ROWS, Now, Row, after, small_exp
+from contact.kernels.tangential.lanes import Now, Row, after, marching, small_exp
 from contact.kernels.tangential.mapping import edge_direction, end_of_stick
 from contact.kernels.tangential.march import March
 
@@ -76,7 +76,7 @@ def set_block(strips, block, last, case, table, of_patch, lanes):
     G = case.G
     offset, rho33, turn, _ = of_patch
     least = NO_FRICTION * G
-    for l in range(LANES):
+    for l in range(marching(lanes)):
         i = min(block + l, last - 1)
         a, bound, log_aspect = strips[Strip.A, i], case.mu * strips[Strip.BOUND, i], strips[Strip.ASPECT, i]
         lanes[Lane.BOUND + l] = bound if a > 0.0 and bound > least else 0.0
@@ -94,7 +94,7 @@ def set_block(strips, block, last, case, table, of_patch, lanes):
         lanes[Lane.N + l] = strips[Strip.TO_EXPONENT, i]
         lanes[_Input.CENTRE + l] = strips[Strip.CENTRE, i]
     edges = 0
-    for l in range(lanes.size // N_LANE_ROWS):
+    for l in range(marching(lanes)):
         bound, a, y, xc = lanes[Lane.BOUND + l], lanes[_Input.HALF + l], lanes[_Input.AT + l], lanes[_Input.XC + l]
         vx, vy, phi, fitted = (
             lanes[_Input.VX + l],
@@ -153,7 +153,7 @@ def set_block(strips, block, last, case, table, of_patch, lanes):
         lanes[Lane.TO_SPIN + l] = per_unit * to_phi * a
     if edges > 0:
         _set_edges(lanes)
-    for l in range(lanes.size // N_LANE_ROWS):
+    for l in range(marching(lanes)):
         lanes[March.TX + l], lanes[March.TY + l], lanes[March.LEFT + l], lanes[March.CAME + l] = 0.0, 0.0, 1.0, -2.0
         lanes[Lane.SUM_X + l], lanes[Lane.SUM_Y + l], lanes[Lane.SUM_M + l] = 0.0, 0.0, 0.0
         lanes[Lane.POWER + l], lanes[Lane.STICK + l] = 0.0, 0.0
@@ -165,6 +165,6 @@ def set_block(strips, block, last, case, table, of_patch, lanes):
 @kernel
 def _set_edges(lanes):
     """Fill the direction of the strips that slip from their leading edge."""
-    for l in range(lanes.size // N_LANE_ROWS):
+    for l in range(marching(lanes)):
         ex, ey = edge_direction(lanes[Lane.R + l], lanes[Lane.XS + l], lanes[Lane.YS + l] + 2.0 * lanes[Lane.SPIN + l])
         lanes[March.EX + l], lanes[March.EY + l] = lanes[Lane.FROM_EDGE + l] * ex, lanes[Lane.FROM_EDGE + l] * ey

@@ -23,7 +23,7 @@ from typing import Any, NamedTuple
 
 from contact.core import chosen_by, kernel
 from contact.kernels.rows import Element
-from contact.kernels.tangential.lanes import FAR, LANES, Now, Row, after, decay_and_lag, keep, turned
+from contact.kernels.tangential.lanes import FAR, Now, Row, after, decay_and_lag, keep, marching, turned
 
 
 class March(Row):
@@ -112,7 +112,7 @@ def march(rule, elements, lanes, trace):
         bound, slope, stretch = bound_at(rule, k, elements)
         per_bound = 1.0 / bound
         begins, sliding = 0, 0
-        for l in range(LANES):
+        for l in range(marching(lanes)):
             x = lanes[March.TX + l] - step * lanes[March.X + l]
             y = lanes[March.TY + l] - step * (lanes[March.Y + l] + lanes[March.Z + l] * middle)
             used = (x * x + y * y) * per_bound * per_bound
@@ -127,7 +127,7 @@ def march(rule, elements, lanes, trace):
                 _end_slip(rule, (before, s, step), slope_before, slope, bound, lanes)
                 stop(rule, before, s, lanes)
         else:
-            for l in range(LANES):
+            for l in range(marching(lanes)):
                 x, y = lanes[March.TRIAL_X + l], lanes[March.TRIAL_Y + l]
                 lanes[March.TX + l], lanes[March.TY + l], lanes[March.USED + l] = x, y, lanes[March.TRIAL_USED + l]
                 lanes[Now.X + l], lanes[Now.Y + l] = x * per_bound, y * per_bound
@@ -139,7 +139,7 @@ def march(rule, elements, lanes, trace):
 @kernel
 def _begin_to_slide(rule, place, lanes):
     s = place[0]
-    for l in range(LANES):
+    for l in range(marching(lanes)):
         x, y, used, before = (
             lanes[March.TX + l],
             lanes[March.TY + l],
@@ -164,7 +164,7 @@ def _end_slip(rule, place, slope_before, slope, bound, lanes):
     """Set traction and state of particles whose slip becomes zero within the step: they stick, unless the bound is too low."""
     before, s, step = place
     per_bound = 1.0 / bound
-    for l in range(LANES):
+    for l in range(marching(lanes)):
         x, y, ex, ey = lanes[March.TRIAL_X + l], lanes[March.TRIAL_Y + l], lanes[March.EX + l], lanes[March.EY + l]
         slid = lanes[March.TRIAL_USED + l]
         slip_before = slip_at(rule, before, slope_before, x, y, lanes, l)
@@ -195,7 +195,7 @@ def _end_slip(rule, place, slope_before, slope, bound, lanes):
 def _begin_even(rule, lanes):
     # at the edge the traction of stick rises |W|/2 times as fast as the parabola; the ellipse is infinitely steep there
     steepest, start = (math.inf, 0.0) if rule.elliptic else (2.0, 0.25)
-    for l in range(LANES):
+    for l in range(marching(lanes)):
         x, y = lanes[March.X + l], lanes[March.Y + l] + lanes[March.Z + l]
         size = math.sqrt(x * x + y * y) + 1e-300
         lanes[March.TX + l], lanes[March.TY + l], lanes[March.LEFT + l] = 0.0, 0.0, 1.0
@@ -226,7 +226,7 @@ def _slide_even(rule, place, bound, slope, lanes):
     s, step, middle, stretch = place
     per_bound = 1.0 / bound
     ends = 0
-    for l in range(LANES):
+    for l in range(marching(lanes)):
         X, Y, Z, slid = lanes[March.X + l], lanes[March.Y + l], lanes[March.Z + l], lanes[March.SLIPS + l]
         x, y, left = lanes[March.EX + l], lanes[March.EY + l], lanes[March.LEFT + l]
         trial_x, trial_y, used = lanes[March.TRIAL_X + l], lanes[March.TRIAL_Y + l], lanes[March.TRIAL_USED + l]

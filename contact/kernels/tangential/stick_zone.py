@@ -13,7 +13,7 @@ import math
 
 from contact.core import kernel
 from contact.kernels.rows import Element
-from contact.kernels.tangential.lanes import LANES, N_LANE_ROWS
+from contact.kernels.tangential.lanes import marching
 from contact.kernels.tangential.mapped_lanes import Lane
 from contact.kernels.tangential.mapping import mapped
 from contact.kernels.tangential.march import March
@@ -52,7 +52,7 @@ def end_zone(place, lanes):
     s, step = place[0], place[1]
     before = s + step
     whole = 1.0 if before >= 1.0 else _arc(step / (1.0 - s * before))
-    for l in range(LANES):
+    for l in range(marching(lanes)):
         used = lanes[March.TRIAL_USED + l]
         if not (used > 1.0 and lanes[March.SLIPS + l] < 0.5):
             continue
@@ -81,7 +81,7 @@ def end_zone(place, lanes):
 @kernel
 def begin_zone(before, s, lanes):
     """Take note of the strips that have slipped from their leading edge and stick within the step from `before` to s."""
-    for l in range(lanes.size // N_LANE_ROWS):
+    for l in range(marching(lanes)):
         at = lanes[March.AT + l]
         first = at < 1.5 and lanes[Lane.NEXT + l] > 1.5
         over = at - s
@@ -166,7 +166,7 @@ def _beyond(end, h, edge_s, edge_sine, lacks):
 @kernel
 def _add_node(node, weight, lanes):
     """Add one node of the rule to the sums of the stick zones."""
-    for l in range(lanes.size // N_LANE_ROWS):
+    for l in range(marching(lanes)):
         start, to = lanes[Lane.FROM + l], lanes[Lane.TO + l]
         zone = 1.0 if lanes[Lane.NEXT + l] < 1.5 else 0.0
         to = zone * to
@@ -189,7 +189,7 @@ def _add_node(node, weight, lanes):
 def add_zone(elements, lanes):
     """Add the first stick zone of every strip of a block to its sums, and complete the slip zones at its ends."""
     zones, mirrored = 0, 0
-    for l in range(LANES):
+    for l in range(marching(lanes)):
         zones += 1 if lanes[Lane.NEXT + l] < 1.5 else 0
         mirrored += 1 if lanes[Lane.FROM + l] < 1.0 else 0
     if zones == 0:
@@ -203,7 +203,7 @@ def add_zone(elements, lanes):
         0.5 * h * square + h * h / 12.0 * slope - cubic * (1.0 / 3.0 + square * (0.1 + square * (3.0 / 56.0))),
         0.5 * h * square * edge_s + h * h / 12.0 * slope_m + cubic / 3.0,
     )
-    for l in range(lanes.size // N_LANE_ROWS):
+    for l in range(marching(lanes)):
         start, to, next_s = lanes[Lane.FROM + l], lanes[Lane.TO + l], lanes[Lane.NEXT + l]
         has = 1.0 if next_s < 1.5 else 0.0
         fx, fy = lanes[Lane.FROM_X + l], lanes[Lane.FROM_Y + l]
@@ -241,7 +241,7 @@ def add_zone(elements, lanes):
 @kernel
 def _add_before(h, edge_s, edge_sine, lacks, lanes):
     """Complete the slip zones ahead of the stick zones: `_rest` in a mirror."""
-    for l in range(lanes.size // N_LANE_ROWS):
+    for l in range(marching(lanes)):
         s, last_s = -lanes[Lane.FROM + l], lanes[Lane.LAST + l]
         has = 1.0 if s > -1.0 and lanes[Lane.NEXT + l] < 1.5 else 0.0
         slides = last_s < 1.5
