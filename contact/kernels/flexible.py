@@ -11,8 +11,9 @@ import math
 from contact.core import entry, kernel
 from contact.kernels.arrays import Given, PairArrays, Search, SurfaceSearch
 from contact.kernels.elastic_rail import solve_on_rail
-from contact.kernels.enumerations import NoAnswer
+from contact.kernels.enumerations import Height, NoAnswer
 from contact.kernels.geometry.search import axle
+from contact.kernels.pair import solve_briefly
 from contact.kernels.records import LARGEST_ANGLE
 
 
@@ -78,12 +79,26 @@ def turn_memory(memory, backwards):
 @kernel
 def solve_flexible(mode, amount, given, arrays):
     """As `_solve_forwards`, also for a wheelset that rolls backwards on a rail that is constant along the track."""
+    return _solve_either_way(mode, amount, False, given, arrays)
+
+
+@kernel
+def solve_rigid(given, arrays):
+    """As `solve_flexible` at a given height, undisplaced on a rigid rail, with what `solve_briefly` gives."""
+    if abs(given.roll) > LARGEST_ANGLE or abs(given.yaw) > LARGEST_ANGLE:
+        return NoAnswer.TURNED.value
+    return _solve_either_way(Height.GIVEN.value, 0.0, True, given, arrays)
+
+
+@kernel
+def _solve_either_way(mode, amount, rigid, given, arrays):
+    """Solve as `solve_flexible` or, if all is `rigid`, as `solve_rigid`."""
     memory, backwards = arrays.memory, given.vx < 0.0
     turn_memory(memory, backwards)
     if not backwards:
-        return _solve_forwards(mode, amount, given, arrays)
+        return solve_briefly(given, arrays) if rigid else _solve_forwards(mode, amount, given, arrays)
     reflect(given, arrays.offset[0])
-    code = _solve_forwards(mode, amount, given, arrays)
+    code = solve_briefly(given, arrays) if rigid else _solve_forwards(mode, amount, given, arrays)
     reflect(given, arrays.offset[0])
     _reflect_answer(max(code, 0), arrays.contacts, arrays.total[0])
     memory[0] = -memory[0]

@@ -2,9 +2,10 @@
 
 import math
 
-from contact.core import kernel
+from contact.core import arranging, kernel
 from contact.kernels.arrays import Samples, Space, Workspace
-from contact.kernels.damage.assess import damage_kernel
+from contact.kernels.block import part
+from contact.kernels.damage.assess import bears_nothing, clear_damage, damage_kernel, damage_of_patch
 from contact.kernels.enumerations import Height, LoadKind, NoAnswer, NormalFamily, Status
 from contact.kernels.geometry.prepare import move
 from contact.kernels.geometry.search import size_of
@@ -31,6 +32,8 @@ from contact.kernels.rows import Sep
 _MOST, _SHORTEST, _TOLERANCE, _ACCEPTABLE = 20, 1e-14, 1e-9, 1e-3
 #: So many trials that do not bring the residual down to a share of it mean that the force jumps.
 _SHARE, _JUMP = 0.25, 6
+#: A trial is brief where the one before has missed the force by more than this share.
+_ROUGH = 1e-3
 #: Methods that iterate: target; residual that counts as noise of the iteration after so many such trials.
 _ITERATED, _NOISE, _IDLE = 2e-6, 1e-4, 2
 #: Target and accepted residual on surfaces that change along the way, the second with friction. On the edge of a fresh flat the
@@ -86,6 +89,12 @@ def workspace_of(k, arrays):
     return samples, Workspace(workspace.rule, workspace.tables, space, workspace.strips, workspace.fields)
 
 
+@arranging
+def _one_row(fields):
+    """Return the fields with room for a single strip, which asks methods for forces only."""
+    return part(fields, 0, fields.shape[0], 1, fields.shape[2])
+
+
 @kernel
 def _press_patch(k, arrays):
     """Solve the normal problem of patch k of the last search at its approach. Return the number of strips.
@@ -98,8 +107,8 @@ def _press_patch(k, arrays):
 
 
 @kernel
-def _roll_patch(k, n_strips, arrays):
-    """Solve the tangential problem of patch k, whose normal problem was solved last, with its damage."""
+def _roll_patch(k, n_strips, brief, arrays):
+    """Solve the tangential problem of patch k, pressed last, with its damage; `brief` as in `_solve`."""
     search, workspace, result, parameters = (
         arrays.search,
         arrays.workspace,
@@ -109,9 +118,18 @@ def _roll_patch(k, n_strips, arrays):
     case = arrays.patch_case[0]
     if n_strips > 0:
         samples, of_patch = workspace_of(k, arrays)
-        complete_pressure(samples, n_strips, case, of_patch, result)
+        if brief and case.conformal == 0 and not case.pressure_limit > 0.0:
+            of_patch = Workspace(
+                of_patch.rule, of_patch.tables, of_patch.space, of_patch.strips, _one_row(of_patch.fields)
+            )
+        complete_pressure(samples, n_strips, brief, case, of_patch, result)
         roll_case(samples, n_strips, case, of_patch, result)
     parameters.speed, parameters.wheel_radius = search.motion[0].vx, search.patches[k].radius
+    if brief:
+        clear_damage(arrays.damage[0])
+        if not bears_nothing(n_strips, result):
+            damage_of_patch(case, result, parameters, arrays.damage[0])
+        return
     damage_kernel(
         workspace.strips, n_strips, workspace.fields, case, result, parameters, arrays.damage_fields, arrays.damage[0]
     )
@@ -121,7 +139,7 @@ def _roll_patch(k, n_strips, arrays):
 def solve_patch(k, arrays):
     """Solve patch k of the last search at its approach, as `_press_patch`, and with its fields. Return the number of strips."""
     n_strips = _press_patch(k, arrays)
-    _roll_patch(k, n_strips, arrays)
+    _roll_patch(k, n_strips, False, arrays)
     return n_strips
 
 
@@ -144,11 +162,12 @@ def _enters(arrays):
 
 
 @kernel
-def _solve(n, pressed, enters, arrays):
+def _solve(n, pressed, brief, enters, arrays):
     """Solve the `n` patches of the last search and add up. Return d(ln N)/dz of their normal forces, vertically [1/m].
 
     `pressed` is the number of strips of a single patch whose normal problem is solved already, or below 0. The ledger is
-    filled if `enters` says so.
+    filled if `enters` says so. A `brief` solution has forces, T-gamma and what follows from it, but neither damage of elements
+    nor `gap_error`.
     """
     workspace, total, result = arrays.workspace, arrays.total[0], arrays.result[0]
     damage, case, motion = arrays.damage[0], arrays.patch_case[0], arrays.search.motion[0]
@@ -159,7 +178,7 @@ def _solve(n, pressed, enters, arrays):
     for k in range(n):
         patch, contact = arrays.search.patches[k], arrays.contacts[k]
         n_strips = pressed if pressed >= 0 else _press_patch(k, arrays)
-        _roll_patch(k, n_strips, arrays)
+        _roll_patch(k, n_strips, brief, arrays)
         total.bend = max(total.bend, result.bend)
         pressure = pressure_wrench(workspace.strips, n_strips)
         report(patch, case, result, pressure, contact)
@@ -228,7 +247,7 @@ def _solve_under(mode, force, arrays):
     if force <= 0.0:
         n = _prepared(settle(mode, force, search), arrays)
         if n >= 0:
-            _solve(n, -1, False, arrays)
+            _solve(n, -1, False, False, arrays)
         return n
     above, touch, nodes = _begin_under(force, search, root)
     if not above:
@@ -237,19 +256,21 @@ def _solve_under(mode, force, arrays):
     iterated = arrays.case[0].normal_family == NormalFamily.STRIP_HALFSPACE
     tolerance = max(_ROUGHER if changing else _TOLERANCE, _ITERATED if iterated else 0.0)
     acceptable = _ACCEPTABLE_ROUGH if changing and mode == Height.VERTICAL else _ACCEPTABLE
-    best, z_best, mark, idle = math.inf, touch, math.inf, 0
+    best, z_best, mark, missing, idle = math.inf, touch, math.inf, math.inf, 0
     while True:
         z = touch + root.x
         if changing:  # grids that are laid for another height would change the force
             begin(search, z)
         n = _from_nothing(describe(search, z, nodes), arrays)
         pressed = _press_patch(0, arrays) if n == 1 else -1
-        if mode == Height.LOAD and n == 1:
+        rolls = mode == Height.VERTICAL or n != 1
+        brief = rolls and missing > _ROUGH  # this trial will hardly be the last one
+        if not rolls:
             patch, result = search.patches[0], arrays.result[0]
             cosine = math.cos(patch.angle) * math.cos(patch.pitch)
             reached, growth = (result.N * cosine, result.stiffness / result.N * cosine) if pressed > 0 else (0.0, 0.0)
         else:
-            growth = _solve(n, pressed, False, arrays)
+            growth = _solve(n, pressed, brief, False, arrays)
             reached = _carried(mode, n, arrays)
         if root.evaluations == 0 and reached > 0.0 and growth > 0.0:
             root.slope = 2.0 / 3.0 * reached ** (2.0 / 3.0) * growth
@@ -267,17 +288,27 @@ def _solve_under(mode, force, arrays):
     if best > acceptable and root.high == root.last:
         return NoAnswer.NOT_SETTLED.value
     enters = _enters(arrays)
-    if z != z_best or (n > 1 and enters):
+    if z != z_best or brief or (n > 1 and enters):
         if changing:
             begin(search, z_best)
         n = _from_nothing(describe(search, z_best, nodes), arrays)
-        _solve(n, -1, enters, arrays)
-    elif mode == Height.LOAD and n == 1:
-        _solve(n, pressed, enters, arrays)
+        _solve(n, -1, False, enters, arrays)
+    elif not rolls:
+        _solve(n, pressed, False, enters, arrays)
     elif enters and pressed > 0:
         enter(search.patches[0], pressed, arrays.damage[0], arrays)
     if best > acceptable:  # the force jumps with the height: on surfaces, and by ANALYN where a lobe appears
         total.status = Status.NOT_CONVERGED.value
+    return n
+
+
+@kernel
+def solve_briefly(given, arrays):
+    """As `solve_pair` at a given height, for forces, T-gamma and pressure alone, and for damage where it is entered."""
+    move(given, arrays.search.motion[0])
+    n = _prepared(settle(Height.GIVEN.value, 0.0, arrays.search), arrays)
+    if n >= 0:
+        _solve(n, -1, not _enters(arrays), True, arrays)
     return n
 
 
@@ -296,5 +327,5 @@ def solve_pair(mode, amount, given, arrays):
         return _solve_under(mode, amount, arrays)
     n = _prepared(settle(mode, amount, arrays.search), arrays)
     if n >= 0:
-        _solve(n, -1, True, arrays)
+        _solve(n, -1, False, True, arrays)
     return n

@@ -153,9 +153,10 @@ def _roll(n, case, workspace, result):
 
 
 @kernel
-def complete_pressure(sep, n, case, workspace, result):
-    """Fill what follows from the pressures of `n` > 0 strips: gap error, fields, largest pressure, size of the patch."""
-    result.gap_error = gap_error(sep, n, case, workspace, result)
+def complete_pressure(sep, n, brief, case, workspace, result):
+    """Fill what follows from the pressures of `n` > 0 strips: fields, largest pressure, size, and gap error if not `brief`."""
+    if not brief:
+        result.gap_error = gap_error(sep, n, case, workspace, result)
     elements, strips, fields = workspace.rule.elements, workspace.strips, workspace.fields
     area, x_low, x_high = 0.0, math.inf, -math.inf
     for i in range(n):
@@ -184,7 +185,7 @@ def press_case(sep: Samples, case: Case, workspace: Workspace, result: Result) -
     """Solve the normal problem; return the strip count."""
     n = press(sep, case, workspace, result)
     if n > 0:
-        complete_pressure(sep, n, case, workspace, result)
+        complete_pressure(sep, n, False, case, workspace, result)
     return n
 
 

@@ -12,7 +12,8 @@ from contact_models.vehicle import linear
 from contact_models.vehicle.course import lay
 from contact_models.vehicle.declared import read
 from contact_models.vehicle.kernels.layout import Axis, Book
-from contact_models.vehicle.simulation import Simulation
+from contact_models.vehicle.kernels.wheels import follow_wheel
+from contact_models.vehicle.simulation import ContactOptions, Simulation
 from contact_models.vehicle.spectra import Irregularities
 from contact_models.vehicle.track import Curve, Track
 from tests.vehicle.parts import FAST, PACED, simulation
@@ -169,3 +170,18 @@ def test_pace_has_a_range(pace):
         simulation("wheelset", options=dataclasses.replace(FAST, pace=pace))
     with pytest.raises(ContactError, match=rf"pace = {pace} is outside"):
         Methods(pace=pace)
+
+
+@pytest.mark.parametrize("options", [FAST, ContactOptions(pace=1)])
+def test_a_wheel_has_the_forces_of_a_pair_bit_for_bit(options):
+    """It reads neither the damage of elements nor `gap_error`, so a vehicle leaves them out."""
+    sim = simulation("manchester", curve(), speed=15.0, settling=1.0, options=options)
+    sim.advance(STEP)
+    expected, _ = sim.derive_contacts()
+    sim.wheel_arrays.memories[:] = 0.0  # pairs have solved nothing before either
+    for w, (Fx, Fy, Fz, Mx, My, Mz) in enumerate(expected):
+        assert follow_wheel(sim.wheel_arrays, sim.scratch, w) == sim.wheel_arrays.totals[w]["n_patches"] > 0
+        wheel = sim.scratch.wheels[w]
+        assert (wheel["longitudinal"], wheel["lateral"], -wheel["vertical"]) == (Fx, Fy, Fz)
+        assert (wheel["moment_x"], wheel["moment_y"], wheel["moment_z"]) == (Mx, My, Mz)
+        assert wheel["T_gamma"] > 0.0

@@ -30,6 +30,29 @@ def strip_width(strips, i):
     return strips[Strip.DY, i] * math.sqrt(1.0 + strips[Strip.TILT, i] ** 2)
 
 
+@kernel
+def damage_of_patch(case, result, parameters, damage):
+    """Fill what follows from the resultants of a loaded patch, T-gamma and the indices that are functions of it."""
+    vx, vy, phi = case.vx, case.vy, case.phi
+    Fx, Fy, Mz = result.Fx, result.Fy - result.pressure_y, result.Mz
+    T_gamma = t_gamma_kernel(Fx, Fy, 0.0, vx, vy, 0.0)
+    T_gamma_spin = t_gamma_kernel(Fx, Fy, Mz, vx, vy, phi)
+    load = T_gamma_spin if parameters.with_spin != 0 else T_gamma
+    damage.T_gamma, damage.T_gamma_spin = T_gamma, T_gamma_spin
+    damage.dissipation = result.power
+    damage.pearce_sherratt = pearce_sherratt_kernel(load, 2.0 * parameters.wheel_radius, parameters.pearce_sherratt)
+    damage.burstow = burstow_kernel(load, parameters.burstow)
+    damage.usfd = usfd_kernel(load, result.area, parameters.usfd)
+    utilisation = math.sqrt(Fx * Fx + Fy * Fy) / result.N
+    damage.fatigue_index = fatigue_index_kernel(utilisation, result.pmax, parameters.shear_yield)
+
+
+@kernel
+def bears_nothing(n, result):
+    """Return whether there is no patch that could be damaged."""
+    return n == 0 or result.N <= 0.0 or result.area <= 0.0 or result.pmax <= 0.0
+
+
 @entry
 def damage_kernel(
     strips: Matrix,
@@ -50,30 +73,16 @@ def damage_kernel(
     """
     clear_damage(damage)
     without_fields = case.tangential_family == TangentialFamily.CREEP_FORCE
-    nothing = n == 0 or result.N <= 0.0 or result.area <= 0.0 or result.pmax <= 0.0
+    nothing = bears_nothing(n, result)
     if nothing or without_fields:
         damage_fields[:, :n] = 0.0
     if nothing:
         return
-    vx, vy, phi = case.vx, case.vy, case.phi
-    Fx, Fy, Mz = result.Fx, result.Fy - result.pressure_y, result.Mz
-    radius, shear_yield = parameters.wheel_radius, parameters.shear_yield
-    circumference = 2.0 * math.pi * radius
-
-    T_gamma = t_gamma_kernel(Fx, Fy, 0.0, vx, vy, 0.0)
-    T_gamma_spin = t_gamma_kernel(Fx, Fy, Mz, vx, vy, phi)
-    load = T_gamma_spin if parameters.with_spin != 0 else T_gamma
-    damage.T_gamma, damage.T_gamma_spin = T_gamma, T_gamma_spin
-    damage.dissipation = result.power
-    damage.pearce_sherratt = pearce_sherratt_kernel(load, 2.0 * radius, parameters.pearce_sherratt)
-    damage.burstow = burstow_kernel(load, parameters.burstow)
-    damage.usfd = usfd_kernel(load, result.area, parameters.usfd)
-    utilisation = math.sqrt(Fx * Fx + Fy * Fy) / result.N
-    damage.fatigue_index = fatigue_index_kernel(utilisation, result.pmax, shear_yield)
-
+    damage_of_patch(case, result, parameters, damage)
     if without_fields:
         return
     depth_max, volume, stress_max, energy_max = 0.0, 0.0, -math.inf, -math.inf
+    circumference, shear_yield = 2.0 * math.pi * parameters.wheel_radius, parameters.shear_yield
     speed, hardness, archard = parameters.speed, parameters.hardness, parameters.archard
     columns, to_depth = fields.shape[2], 1.0 / (circumference * hardness)
     for i in range(n):

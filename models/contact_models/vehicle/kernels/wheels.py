@@ -6,8 +6,8 @@ import math
 
 from contact.core import entry, kernel
 from contact.kernels.arrays import Given, PairArrays, Search, SurfaceSearch
-from contact.kernels.enumerations import Height, Status
-from contact.kernels.flexible import solve_flexible
+from contact.kernels.enumerations import Status
+from contact.kernels.flexible import solve_rigid
 from contact.kernels.geometry.search import axle
 from .between import count_around, expect, keep_solution, take_expected
 from .frames import linear, place_on, smooth
@@ -70,7 +70,7 @@ def solve_contact(arrays: PairArrays[SurfaceSearch], given: Given, here: Seat, w
     """Solve the contact of one wheel for the inputs of `fill_inputs`. Fill `wheel`; return as `solve_pair`."""
     case = arrays.case[0]
     case.mu, case.kinetic, case.speed = here.friction, here.kinetic, abs(given.vx)
-    n = solve_flexible(Height.GIVEN.value, 0.0, given, arrays)
+    n = solve_rigid(given, arrays)
     if n >= 0:
         report_wheel(arrays, n, wheel)
     return n
