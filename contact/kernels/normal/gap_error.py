@@ -24,6 +24,8 @@ CHECKED_SKEWED, ASIDE = 12, 0.5
 BEYOND = 0.1
 #: Half length [m] in place of 0, of which logarithm and reciprocal are traps.
 _LEAST = 1e-12
+#: Gap between two strips, over half the width of the second one, below which they share a side.
+_LEAST_GAP = 1e-9
 
 
 @kernel
@@ -40,10 +42,15 @@ def _displacement(at, locus, strip, n, strips, vectors, plane):
     """Return the displacement at y = at, x = locus times pi E* [N/m]. The point lies in `strip`; -1 if in none."""
     pairs = vectors[Vector.PAIRS : Vector.PAIRS + len(Pair)]
     lows, highs = pairs[Pair.LOW], pairs[Pair.HIGH]
+    end, beyond = -math.inf, 0.0
     for j in range(n):
-        away, half = abs(strips[Strip.Y, j] - at), 0.5 * strips[Strip.DY, j]
-        lows[j] = math.log(max(abs(away - half), 1e-12 * half)) - vectors[Vector.Q1, j]
-        highs[j] = math.log(away + half) - vectors[Vector.Q1, j]
+        y, half, ln_a = strips[Strip.Y, j], 0.5 * strips[Strip.DY, j], vectors[Vector.Q1, j]
+        before = beyond  # the logarithm of the distance to the side of the strip before is that to the side of this one
+        if abs(y - half - end) > _LEAST_GAP * half:
+            before = math.log(max(abs(y - half - at), 1e-12 * half))
+        end = y + half
+        beyond = math.log(max(abs(end - at), 1e-12 * half))
+        lows[j], highs[j] = min(before, beyond) - ln_a, max(before, beyond) - ln_a
         pairs[Pair.X, j] = abs(strips[Strip.XC, j] - locus) * vectors[Vector.Q2, j]
     fill_ln_X(n, pairs)
     return displacement(plane, vectors[Vector.R, :n], pairs, strip)
