@@ -27,7 +27,8 @@ from contact.geometry import profile
 from contact.geometry.surfaces import Flat, SurfacePair, WheelSurface
 from contact.geometry.wheelset import Pair, Pose, Velocity
 from contact.instance.ownership import OwnsArrays
-from contact.pair import HalfspacePair, RollerRig, TransientPair, WheelRailPair, over_poses, solved
+from contact.pair import HalfspacePair, RollerRig, TransientPair, WheelRailPair, over_poses
+from contact.pair import solution as pair_solutions
 from contact.results import solution as solutions
 from contact.stress import Endurance
 from contact_models.vehicle.coupling import OpenVehicle
@@ -317,7 +318,7 @@ def test_an_interrupted_call_leaves_its_object_usable():
 def test_two_threads_may_read_one_solution(monkeypatch, name):
     """Fields and patches are made when they are first read."""
     of_pair = name in ("force", "contacts", "damage")
-    module, maker = (solved, "_made") if of_pair else (solutions, "_arrays")
+    module, maker = (pair_solutions, "_made") if of_pair else (solutions, "_arrays")
     make, both = getattr(module, maker), Barrier(2)
 
     def slow(*left):

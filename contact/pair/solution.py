@@ -5,7 +5,8 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, field
-from typing import NamedTuple
+from operator import itemgetter
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -14,10 +15,11 @@ from contact.damage.assessment import assess
 from contact.geometry.records import Patch, Pose, contact_angle
 from contact.geometry.surfaces import SurfacePatch
 from contact.inputs.creepage import Creepage
-from contact.kernels.records import TOTAL
+from contact.kernels.records import CONTACT, TOTAL
 from contact.kernels.resultants import add_patch
 from contact.results import PairJacobian, Solution, Status
-from contact.results.later import MadeLater
+from contact.results.later import STATES, MadeLater, reader
+from contact.results.solution import RENAMED
 from contact.view.notebook import beside, table
 from contact.view.tables import Table
 
@@ -162,6 +164,26 @@ class PairSolution(MadeLater):
     bend: float = 0.0
     jacobian: PairJacobian | None = field(default=None, repr=False)
 
+    @classmethod
+    def of_kernel(
+        cls,
+        total: memoryview,
+        contacts: memoryview,
+        n: int,
+        deflection: tuple[float, float],
+        spin: float,
+        jacobian: PairJacobian | None,
+    ) -> PairSolution:
+        """Return the solution with `n` patches from the bytes of the records that the kernel has filled.
+
+        Arrays, patches and damage are made from copies when one of them is first read.
+        """
+        record = _TOTAL.unpack_from(total)
+        numbers = dict(zip(_PLAIN, _PICK(record), strict=True))
+        numbers["status"], numbers["deflection"] = STATES[record[_STATUS]], deflection
+        numbers["spin"], numbers["jacobian"] = spin, jacobian
+        return cls.later(numbers, _made, record, bytes(contacts[: n * CONTACT.itemsize]))
+
     def _table(self) -> Table:
         names = "N", "Fx", "Fy", "Mx", "My", "Mz", "angle", "area", "max_pressure", "approach", "used_friction"
         columns = {name: np.array([getattr(c, name) for c in self.contacts]) for name in (*names, "gap_error", "pitch")}
@@ -207,6 +229,51 @@ class PairSolution(MadeLater):
     def slip_ratio(self) -> float:
         """Slip area over contact area [-]; 0 without contact."""
         return self.slip_area / self.area if self.area > 0.0 else 0.0
+
+
+_TOTAL, _CONTACT = reader(TOTAL), reader(CONTACT)
+_NAMES = tuple(RENAMED.get(name, name) for name in TOTAL.names or ())
+#: Attributes of a solution that are numbers of its record.
+_PLAIN = [name for name in _NAMES if name in PairSolution.__dataclass_fields__ and name not in ("status", "damage")]
+_PICK = itemgetter(*(_NAMES.index(name) for name in _PLAIN))
+_STATUS = _NAMES.index("status")
+_DAMAGE = itemgetter(*(_NAMES.index(name) for name in PairDamage._fields))
+
+
+def _made(total: tuple[Any, ...], contacts: bytes) -> dict[str, Any]:
+    """Return force, moment, patches and damage."""
+    return {
+        "force": np.array(total[:3]),
+        "moment": np.array(total[3:6]),
+        "contacts": tuple(
+            _read(dict(zip(CONTACT.names or (), row, strict=True))) for row in _CONTACT.iter_unpack(contacts)
+        ),
+        "damage": PairDamage(*_DAMAGE(total)),
+    }
+
+
+def _read(found: dict[str, Any]) -> Contact:
+    """Return the contact with the members of a record."""
+    return Contact(
+        N=found["N"],
+        Fx=found["Fx"],
+        Fy=found["Fy"],
+        Mx=found["Mx"],
+        My=found["My"],
+        Mz=found["Mz"],
+        position=(found["x"], found["y"], found["z"]),
+        angle=found["angle"],
+        area=found["area"],
+        max_pressure=found["pmax"],
+        creepage=Creepage(found["longitudinal"], found["lateral"], found["spin"]),
+        approach=found["approach"],
+        on_rail=(found["rail_y"], found["rail_z"]),
+        on_wheel=(found["wheel_y"], found["wheel_z"]),
+        used_friction=found["used_friction"],
+        status=STATES[found["status"]],
+        gap_error=found["gap_error"],
+        pitch=found["pitch"],
+    )
 
 
 class Solved(NamedTuple):

@@ -33,7 +33,6 @@ from contact.pair.driven import drive
 from contact.pair.elastic_rail import ElasticRail
 from contact.pair.motion import AnyPair
 from contact.pair.solution import PairSolution
-from contact.pair.solved import Answer
 from contact.registry import DEFAULT_NORMAL, DEFAULT_TANGENTIAL, lookup
 from contact.results import BEND, PairJacobian
 from contact.results.jacobian import columns_of_pair
@@ -142,7 +141,8 @@ class WheelRailPair(AnyPair):
         self._packed = pack(PairArrays[Search] if constant else PairArrays[SurfaceSearch], self.arrays)
         self._gap_limit = method.gap_limit
         self._rail, self._offset = _RIGID, _STRAIGHT
-        self._answer = Answer(self.arrays)
+        self._found = self.arrays.total.view(np.uint8).data, self.arrays.contacts.view(np.uint8).data
+        self._deflection = self.arrays.rail["dy"], self.arrays.rail["dz"]
         self._motion = np.zeros(1, GIVEN)
         self._packed_motion = pack(Given, self._motion[0])
         self._bytes = self._motion.view(np.uint8).data, self.arrays.case.view(np.uint8).data
@@ -293,7 +293,8 @@ class WheelRailPair(AnyPair):
         else:
             self.pair.doubt(pose, velocity, vertical, "vertical")
         jacobian = self._derive(mode, self._motion[0], load, penetration, vertical) if derivatives else None
-        found = self._answer.solution(code, given[_SPIN], jacobian)
+        y, z = self._deflection
+        found = PairSolution.of_kernel(*self._found, code, (float(y[0]), float(z[0])), given[_SPIN], jacobian)
         doubt_gap(found.gap_error, self._gap_limit, self.pair.told)
         doubt_strips(found.bend, BEND, self._methods["conformal"], self.pair.told)
         return found
