@@ -127,6 +127,22 @@ def is_far(n: int, cosines: Numbers, moved: float) -> bool:
 
 
 @kernel
+def go_far(n, n_panels, panels, cosines, vectors):
+    """Let ends that want the longest move outwards make it whole.
+
+    Their rule tells no more than the direction there, and the mixing would leave little of it: an end crept over a thin bridge.
+    """
+    for p in range(n_panels):
+        width = panels[2 * p + 1] - panels[2 * p]
+        for side in range(2):
+            end, outwards = p * n + side * (n - 1), 2.0 * side - 1.0
+            if is_far(n, cosines, outwards * vectors[Vector.R, end] / width):
+                vectors[Vector.STEP, end] = outwards * max(
+                    outwards * vectors[Vector.STEP, end], outwards * vectors[Vector.R, end]
+                )
+
+
+@kernel
 def end_move(vectors, n, first, step, cosines, frozen, calm):
     """Return the outward move of one end of a panel over its half width.
 

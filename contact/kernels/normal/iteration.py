@@ -18,7 +18,7 @@ from typing import Any, NamedTuple
 from contact.core import kernel
 from contact.kernels.normal.brackets import damp_turns, keep_between, note_sides
 from contact.kernels.normal.descent import COARSE, descend, descend_offsets, has_one_run, straightening
-from contact.kernels.normal.ends import end_moves, have_idle_part, is_far
+from contact.kernels.normal.ends import end_moves, go_far, have_idle_part, is_far
 from contact.kernels.normal.mixing import advance, mix
 from contact.kernels.normal.notes import note, note_event
 from contact.kernels.normal.panels import EARLY_GHOST, GHOST, extend_to_ghosts, start_panels
@@ -53,8 +53,9 @@ BRACKET = 12
 SEEK, EVERY = 11, 4
 #: How often panels are parted from one start: parts that grow together again would be parted for ever.
 MOST_PARTED = 3
-#: Iterations in which a warm start has to come to rest. Then the iteration starts again from ANALYN's solution.
-WARM = 8
+#: Iterations in which a warm start has to come to rest. From iteration `SOON` on no end may move by more than `STIRS` of the
+#: width. Otherwise the iteration starts again from ANALYN's solution.
+WARM, SOON, STIRS = 8, 3, 3e-3
 
 
 class Problem(NamedTuple):
@@ -98,7 +99,7 @@ def begin(problem, n_panels, most, state):
     """Set the state before the first of `most` iterations. The last solution left `n_panels` panels, 0 for a cold start."""
     state.number, state.error, state.load, state.last, state.converged = 0, math.inf, 0.0, 0, 0
     # a warm start that finds no rest leaves the cold one at least as many iterations, or takes all
-    state.patience = WARM if most >= 2 * WARM else most
+    state.patience = WARM if most >= 2 * WARM else 2 * WARM
     if n_panels > 0:
         state.n_panels = n_panels
         _reset(problem, 1, state)
@@ -203,13 +204,22 @@ def _fill_step(problem, state):
 
 
 @kernel
+def _move(problem, n_panels):
+    """Change the unknowns of the first `n_panels` panels by the step that the mixing has found."""
+    workspace, vectors, skewed = problem.workspace, problem.workspace.space.vectors, problem.skew > 0.0
+    n = workspace.rule.across.nodes.size
+    if skewed:
+        go_far(n, n_panels, problem.panels, workspace.rule.cosines, vectors)
+    advance(n, n_panels, problem.panels, vectors, skewed)
+
+
+@kernel
 def _search(problem, state, least):
     """Look for missed contact: an overlap above `least` times the approach outside the panels, which then grow.
 
     Return whether there is any. Where a panel is added, the others take their step and need not wait for it.
     """
-    workspace, panels = problem.workspace, problem.panels
-    vectors, before = problem.workspace.space.vectors, state.n_panels
+    workspace, panels, before = problem.workspace, problem.panels, state.n_panels
     state.searched = 1
     state.n_panels, found = extend_to_ghosts(
         problem.sep, problem.touch, state.approach, least, problem.unit, problem.skew, before, panels, workspace
@@ -218,7 +228,7 @@ def _search(problem, state, least):
         state.found, state.mixed, state.best = 1, 0, math.inf
         note_event(problem, state, Event.FOUND.value)
         if state.n_panels > before:
-            advance(workspace.rule.across.nodes.size, before, panels, vectors, problem.skew > 0.0)
+            _move(problem, before)
     return found
 
 
@@ -254,7 +264,7 @@ def _take(problem, state):
     elif state.found == 0:
         if BRACKET <= age < FREEZE:
             keep_between(n, state.n_panels, panels, vectors)
-        advance(n, state.n_panels, panels, vectors, problem.skew > 0.0)
+        _move(problem, state.n_panels)
         state.mixed += 1
     state.n_panels, joined = join_panels(n, state.n_panels, panels, workspace.rule.cosines, vectors)
     if joined:
@@ -368,6 +378,8 @@ def step(problem, state):
     if not _evaluate(problem, state):
         state.patience = state.number + 1
         return state.warm == 0
+    if state.warm != 0 and state.patience == WARM and state.number >= SOON and state.moved > STIRS:
+        state.patience = state.number + 1
     _fill_step(problem, state)
     state.last_error = state.error / state.load
     _keep_best(problem, state)

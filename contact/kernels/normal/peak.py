@@ -85,7 +85,7 @@ def _top_of_parts(sep, i, n, unit, workspace):
     """
     strips, vectors, lu, centre = workspace.strips, workspace.space.vectors, workspace.space.lu, workspace.tables.centre
     slopes, rest, patch = workspace.space.grid[Sample.GAP_SLOPE], vectors[Vector.U], strips[Strip.PATCH]
-    at, pressures, unused = vectors[Vector.R], vectors[Vector.Q1], vectors[Vector.Q2]
+    at, pressures, unused, logs = vectors[Vector.R], vectors[Vector.Q1], vectors[Vector.Q2], vectors[Vector.R_OLD]
     nearest, beyond = max(i - 2, 0), min(i + 3, n)
     for s in range(i - 1, i + 2):
         y, half = strips[Strip.Y, s], 0.5 * strips[Strip.DY, s]
@@ -104,11 +104,18 @@ def _top_of_parts(sep, i, n, unit, workspace):
                 pressures[r] -= _by_strip(at[r], j, unit, strips, centre)
     before = i - 1 if i > 1 and patch[i - 2] == patch[i] else i  # strips with two neighbours in the patch
     after = i + 1 if i < n - 2 and patch[i + 2] == patch[i] else i
-    for c in range(m):
+    side = strips[Strip.Y, i - 1] - 0.5 * strips[Strip.DY, i - 1]
+    for r in range(m):
+        logs[r] = math.log(abs(at[r] - side))
+    for c in range(m):  # parts lie side by side: the upper side of one is the lower side of the next
         s = i - 1 + c // _PARTS
-        half, a = 0.5 * strips[Strip.DY, s] / _PARTS, _half_length(min(max(s, before), after), at[c], strips)
+        side, a = at[c] + 0.5 * strips[Strip.DY, s] / _PARTS, _half_length(min(max(s, before), after), at[c], strips)
+        ln_a = math.log(a)
         for r in range(m):
-            lu[c, r] = unit * _influence(at[r], at[c], half, a, centre)
+            low = at_centre(centre, logs[r] - ln_a)
+            logs[r] = math.log(abs(at[r] - side))
+            high = at_centre(centre, logs[r] - ln_a)
+            lu[c, r] = unit * a * (low + high if r == c else abs(high - low))
     eliminate(lu, m, pressures, unused)
     best = _PARTS - 1
     for r in range(_PARTS, 2 * _PARTS + 1):

@@ -36,6 +36,7 @@ from contact.kernels.normal.iteration import (
     step,
 )
 from contact.kernels.normal.orientation import is_image, turn_back, turn_samples
+from contact.kernels.normal.panels import is_between_loaded
 from contact.kernels.normal.peak import peak_between_strips
 from contact.kernels.normal.residuals import AT_PEAK, is_spike_at_end, stands_alone
 from contact.kernels.normal.start import face, forget, recall, remember
@@ -50,6 +51,9 @@ MAX_ITERATIONS = 60
 USABLE = 0.02
 #: Largest mean slope of the line of the strips' middles at which strips count as in line.
 SLIGHT = 0.045
+#: Pressure of a strip over that on the line through its neighbours', up to which a narrow one is believed, and the width over
+#: the half length at which it may be 1 higher.
+OVER_LINE, NARROW = 1.1, 0.024
 #: Distance of a patch from the end of the data, over its width, below which the data cut it off.
 AT_END = 0.01
 
@@ -147,6 +151,29 @@ def _level_spurs(n, n_panels, vectors):
 
 
 @kernel
+def _level_lone(n, n_panels, vectors):
+    """Lower the largest pressure while its strip stands out of its neighbours though it is far narrower than long.
+
+    It is a zigzag at the end of a slender lobe, where half lengths hardly tell; the strips beside it carry what is right.
+    Return whether there was one.
+    """
+    for k in range(n):
+        top = 0
+        for i in range(n * n_panels):
+            top = i if vectors[Vector.P, i] > vectors[Vector.P, top] else top
+        if not is_between_loaded(top, n, vectors):
+            return k > 0
+        y, before, after = vectors[Vector.Y, top], vectors[Vector.Y, top - 1], vectors[Vector.Y, top + 1]
+        line = (after - y) * vectors[Vector.P, top - 1] + (y - before) * vectors[Vector.P, top + 1]
+        width = 2.0 * vectors[Vector.HALF, top] / (NARROW * vectors[Vector.A, top])
+        believed = line / (after - before) * (OVER_LINE + width * width)
+        if vectors[Vector.P, top] <= believed:
+            return k > 0
+        vectors[Vector.P, top] = believed
+    return True
+
+
+@kernel
 def _report(problem, delta, n_panels):
     """Write the strips and their resultants, where ANALYN's still are. Return the number of strips."""
     workspace, strips, result, sep = problem.workspace, problem.workspace.strips, problem.result, problem.sep
@@ -240,8 +267,10 @@ def _solve(sep, case, workspace, result):
     left = state.last != 0 and state.converged == 0  # at CALM: no call starts from it
     early = not left and state.number - state.begun < FREEZE
     remember(n_panels if early else 0, n, start_low, start_high, skew > 0.0, workspace)
+    lone = skew > 0.0 and _level_lone(n, n_panels, space.vectors)
     count = _report(problem, state.approach, n_panels)
-    result.pmax = peak_between_strips(sep, count, unit, workspace)
+    # parts of strips would make up for the pressure that was taken away
+    result.pmax = 0.0 if lone else peak_between_strips(sep, count, unit, workspace)
     if not rests and result.status != Status.OUT_OF_RANGE:
         result.status = Status.NOT_CONVERGED
     elif result.status == Status.OUT_OF_RANGE:
