@@ -6,6 +6,7 @@ from pathlib import Path
 import pytest
 
 import contact
+from tests.capi.library import Library
 
 
 @pytest.fixture(scope="session")
@@ -14,3 +15,9 @@ def built() -> Path:
     if shutil.which("gcc") is None:
         pytest.skip("gcc is missing")
     return contact.get_library().parent
+
+
+@pytest.fixture(scope="module")
+def library(built) -> Library:
+    """The same, to call its functions."""
+    return Library(built)

@@ -11,16 +11,11 @@ from contact.geometry.wheelset import Pair as Profiles
 from contact.geometry.wheelset import Pose, Velocity
 from contact.kernels.enumerations import Height
 from contact.pair import WheelRailPair
-from tests.capi.library import Library, Pair
+from tests.capi.library import Pair
 
 WHEEL, RAIL, R = profile.s1002(), profile.rail_60e1(), 0.46
 FORCE, MOMENT = ("Fx", "Fy", "Fz"), ("Mx", "My", "Mz")
 TURNED = np.array([-1.0, -1.0, 1.0])  # a vector after a turn of 180° about z
-
-
-@pytest.fixture(scope="module")
-def library(built):
-    return Library(built)
 
 
 def solved(pair, V, y, yaw, slip, rate):

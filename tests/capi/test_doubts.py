@@ -14,14 +14,9 @@ from contact.geometry.wheelset import Pose, Velocity
 from contact.inputs.plausibility import USUAL, doubt_case, doubt_value
 from contact.pair import WheelRailPair
 from contact.results import ANSWERS, BEND
-from tests.capi.library import Library, Pair, Patch
+from tests.capi.library import Pair, Patch
 
 SIZES = 10.0 ** np.arange(-4.0, 5.0)  # factors on usual values
-
-
-@pytest.fixture(scope="module")
-def library(built):
-    return Library(built)
 
 
 def texts(library, doubts):

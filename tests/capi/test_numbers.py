@@ -18,7 +18,7 @@ from contact.geometry.wheelset import Pose, Velocity
 from contact.kernels.enumerations import Height, Status
 from contact.kernels.records import DAMAGE, RESULT
 from contact.pair import WheelRailPair
-from tests.capi.library import FIELDS, LOAD, OPTIONS, Library, Pair, Patch
+from tests.capi.library import FIELDS, LOAD, OPTIONS, Pair, Patch
 
 
 def _patch_options(library, **changed):
@@ -31,11 +31,6 @@ def _patch_options(library, **changed):
 
 SEPARATION = contact.Separation((y := np.linspace(-12e-3, 12e-3, 101)), 0.8 * y**2 + 3e3 * y**3 + 2e6 * y**4, 1.1)
 CREEPAGE = contact.Creepage(1e-3, 5e-4, 0.2)
-
-
-@pytest.fixture(scope="module")
-def library(built):
-    return Library(built)
 
 
 def set_case(patch, creepage=CREEPAGE, load=80e3):

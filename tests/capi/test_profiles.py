@@ -6,12 +6,7 @@ import numpy as np
 import pytest
 
 from contact.geometry import profile
-from tests.capi.library import PAIR_OPTIONS, PROFILE, Library
-
-
-@pytest.fixture(scope="module")
-def library(built):
-    return Library(built)
+from tests.capi.library import PAIR_OPTIONS, PROFILE
 
 
 def init(library, wheel, rail) -> tuple[int, str, str]:

@@ -5,23 +5,17 @@ import math
 import re
 
 import numpy as np
-import pytest
 
 import contact
 from contact.damage import DamageParameters
 from contact.geometry import profile
 from contact.kernels.records import CASE, DAMAGE, DAMAGE_PARAMETERS, ELASTIC_RAIL, GIVEN, RESULT, WHEEL_OFFSET
-from tests.capi.library import INPUT, LOAD, OPTIONS, PAIR_OPTIONS, Library, Pair, Patch
+from tests.capi.library import INPUT, LOAD, OPTIONS, PAIR_OPTIONS, Pair, Patch
 
 NOT_FINITE, RANGE = 2, 3
 OUTSIDE = re.compile(r" is outside its allowed range ([\[\]])(.+), (.+)([\[\]])$")
 Y = np.linspace(-12e-3, 12e-3, 101)
 SEPARATION = contact.Separation(Y, 0.8 * Y**2, 1.1)
-
-
-@pytest.fixture(scope="module")
-def library(built):
-    return Library(built)
 
 
 def explain(library, code, given=None, size=200):

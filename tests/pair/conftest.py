@@ -11,5 +11,10 @@ def right():
 
 
 @pytest.fixture(scope="module")
+def pair():
+    return make()
+
+
+@pytest.fixture(scope="module")
 def left():
     return make("left")

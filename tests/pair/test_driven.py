@@ -5,17 +5,10 @@ import json
 import pytest
 
 from contact import Status
-from contact.geometry import profile
-from contact.geometry.wheelset import Pair, Pose, Velocity
-from contact.pair import WheelRailPair
+from contact.geometry.wheelset import Pose, Velocity
 from tests.command_line import call
 
 FREE = -2.0 / 0.46
-
-
-@pytest.fixture(scope="module")
-def pair():
-    return WheelRailPair(Pair(profile.s1002(), profile.rail_60e1()))
 
 
 @pytest.mark.parametrize("y", [-3e-3, 0.0, 5e-3])

@@ -11,7 +11,7 @@ from contact.friction import Friction
 from contact.geometry import profile
 from contact.geometry.flexible import WheelOffset
 from contact.geometry.wheelset import Pair, Pose, Velocity
-from contact.pair import ContactDamping, FrictionMemory, RollerRig, WheelRailPair
+from contact.pair import ContactDamping, FrictionMemory, RollerRig
 from tests.command_line import call
 
 LAW = Friction(static=0.35, law="exponential", kinetic=0.15, half_speed=0.5)
@@ -42,11 +42,6 @@ def test_a_short_memory_is_the_law():
     memory = FrictionMemory(LAW, 1e-9)
     for sliding in (0.1, 2.0, 0.4):
         assert memory.advance(sliding, 1e-3) == pytest.approx(float(LAW.coefficient(sliding)), rel=1e-12)
-
-
-@pytest.fixture(scope="module")
-def pair():
-    return WheelRailPair(Pair(profile.s1002(), profile.rail_60e1()))
 
 
 def solved(pair, load, creep=0.0):
