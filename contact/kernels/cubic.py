@@ -1,4 +1,4 @@
-"""The Hermite cubic on one interval: value, slope, integral, smallest value, crossing of a level.
+"""The Hermite cubic on one interval: value, slope, integral, smallest value, crossing of a level; cubic convolution.
 
 The interval has the length h. The cubic has the values f0, f1 and the slopes m0, m1 at its ends. t in [0, 1] is the
 position within the interval.
@@ -104,6 +104,17 @@ def crossing(h: float, f0: float, m0: float, f1: float, m1: float, level: float,
             return new
         t = new
     return t
+
+
+@kernel
+def convolution(t):
+    """Return the weights of four equidistant values around t, which counts from the second one (Catmull and Rom)."""
+    return (
+        ((1.0 - 0.5 * t) * t - 0.5) * t,
+        (1.5 * t - 2.5) * t * t + 1.0,
+        ((2.0 - 1.5 * t) * t + 0.5) * t,
+        (0.5 * t - 0.5) * t * t,
+    )
 
 
 @kernel

@@ -1,7 +1,9 @@
 """On an exactly elliptic gap every method is Hertz's, for every ratio of the curvatures and every size."""
 
 import itertools
+import math
 
+import numpy as np
 import pytest
 
 import contact
@@ -37,6 +39,22 @@ def test_strips_that_interact_are_close_to_hertz_and_say_so():
         A, B = separation(ratio, size)
         exact = contact.hertz(A, B, load=load * size**2)
         sol = contact.solve(contact.Separation.hertzian(A, B), NO_CREEP, load=load * size**2)
-        assert sol.max_pressure == pytest.approx(exact.p0, rel=4e-3), (ratio, size, load)
-        assert sol.approach == pytest.approx(exact.approach, rel=2e-3), (ratio, size, load)
+        assert sol.max_pressure == pytest.approx(exact.p0, rel=3e-4), (ratio, size, load)
+        assert sol.approach == pytest.approx(exact.approach, rel=2e-4), (ratio, size, load)
         assert sol.gap_error < 0.01
+
+
+@pytest.mark.parametrize("n", [12, 20, 40])
+def test_the_patch_of_straight_strips_has_hertzs_area(n):
+    """Strips of one pressure and length each displace the surface up to .5 % more or less than the ellipse. Before the factors
+    that make up for it the area was .0101, .0034 and .0012 off at most with 12, 20 and 40 strips, the load at a given approach
+    .0029, .0012 and .0004."""
+    areas, loads = [], []
+    for ratio in np.geomspace(0.03, 30.0, 25):
+        A, B = separation(ratio, 1.0)
+        exact, gap = contact.hertz(A, B, load=1e4), contact.Separation.hertzian(A, B)
+        areas.append(contact.solve(gap, NO_CREEP, load=1e4, n_strips=n).area / (math.pi * exact.a * exact.b) - 1.0)
+        loads.append(contact.solve(gap, NO_CREEP, approach=exact.approach, n_strips=n).N / 1e4 - 1.0)
+    assert np.abs(areas).mean() < 3e-4
+    assert np.abs(areas).max() < 8e-4
+    assert np.abs(loads).max() < 2e-4

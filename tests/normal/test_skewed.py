@@ -39,11 +39,11 @@ def test_a_turned_ellipse_is_hertz(P, Q, angle):
 @pytest.mark.parametrize(("P", "Q", "angle"), [(1.0, Q, angle) for Q in (1.5, 8.0, 36.0) for angle in (15, 30, 45, 75)])
 def test_twenty_skewed_strips_are_as_exact_as_straight_ones(P, Q, angle):
     """Strips of one pressure, length and middle each displace the surface less than the ellipse does, by up to 3 %: before the
-    factors that make up for it the peak was .5 % off, the area .7 %."""
+    factors that make up for it the peak was .5 % off, the area .7 %; with a table of half as many a/b .08 and .09 %."""
     separation, exact, _ = turned(P, Q, angle)
     sol = contact.solve(separation, NO_CREEP, load=1e4, n_strips=20, n_elements=10)
-    assert sol.max_pressure == pytest.approx(exact.p0, rel=1e-3)
-    assert sol.area == pytest.approx(math.pi * exact.a * exact.b, rel=1e-3)
+    assert sol.max_pressure == pytest.approx(exact.p0, rel=5e-4)
+    assert sol.area == pytest.approx(math.pi * exact.a * exact.b, rel=6e-4)
     assert sol.approach == pytest.approx(exact.approach, rel=3e-4)
 
 
@@ -201,7 +201,7 @@ def test_many_strips_put_no_spike_at_the_end_of_a_lobe():
     [
         ("S1002", "54E1", 40, 7.696e-3, -24.2556e-3, 2.121e-3, 141.3e3),
         ("S1002", "54E1", 20, 5.2031e-3, 12.0139e-3, -2.8637e-3, 26.68e3),
-        ("S1002", "49E1", 40, 8.0825e-3, 22.8273e-3, 3.009e-3, 68.39e3),
+        ("S1002", "49E1", 40, 8.0825e-3, 22.8273e-3, 3.009e-3, 68.6e3),
         ("1/40", "54E3", 20, 7.4587e-3, 17.7068e-3, 1.9978e-3, 45.62e3),
         ("1/40", "49E1", 40, 6.5784e-3, -16.647e-3, 0.0241e-3, 56.5e3),
     ],

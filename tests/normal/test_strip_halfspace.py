@@ -52,7 +52,7 @@ def test_table_of_a_panel_equals_the_closed_form(ln_a):
     columns, logs = rule.columns, rule.cosine_logs
     out = np.empty(n)
     for j in range(n):
-        influence.column(columns, j, ln_a, 2.0, out)
+        influence.column(columns, j, ln_a, 2.0, np.ones(out.size), out)
         near, far = (np.array([influence.at_centre(CENTRE, log - ln_a) for log in logs[:, k]]) for k in (j, j + 1))
         own = np.arange(n) == j
         np.testing.assert_allclose(out, 2.0 * np.where(own, near + far, np.abs(far - near)), rtol=1e-5)

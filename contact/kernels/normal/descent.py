@@ -49,7 +49,7 @@ def straightening(n, stiff):
 
 
 @kernel
-def _lay(n, low, high, y, h):
+def lay(n, low, high, y, h):
     """Fill middles and half widths of cosine-spaced strips from `low` to `high`."""
     centre, half = 0.5 * (low + high), 0.5 * (high - low)
     for i in range(n):
@@ -58,7 +58,7 @@ def _lay(n, low, high, y, h):
 
 
 @kernel
-def _influence(i, j, X, y, h, a, centre, plane):
+def influence(i, j, X, y, h, a, centre, plane):
     """Return the displacement at strip i, x = X·a_j, by a unit pressure on strip j, with pi E* = 1."""
     near = max(abs(y[j] - h[j] - y[i]), 1e-12)
     far = max(abs(y[j] + h[j] - y[i]), 1e-12)
@@ -77,19 +77,19 @@ def _residual(low, high, scratch, B, A, centre, plane, out):
     lu = scratch[0]
     ln_a, a, p, q = scratch[1, 0], scratch[1, 1], scratch[1, 2], scratch[1, 3]
     y, h, y0, g0 = scratch[2, 0], scratch[2, 1], scratch[2, 2], scratch[2, 3]
-    _lay(n, low, high, y, h)
+    lay(n, low, high, y, h)
     for i in range(1, n - 1):
         a[i] = math.exp(ln_a[i])
     a[0], a[n - 1] = END_LENGTH * a[1], END_LENGTH * a[n - 2]
     for i in range(n):
         p[i] = q[i] = -(g0[i] + B * (y[i] * y[i] + h[i] * h[i] / 3.0 - y0[i]))
         for j in range(n):
-            lu[j, i] = _influence(i, j, 0.0, y, h, a, centre, plane)
+            lu[j, i] = influence(i, j, 0.0, y, h, a, centre, plane)
     eliminate(lu, n, p, q)
     for i in range(1, n - 1):
         u = 0.0
         for j in range(n):
-            u += p[j] * _influence(i, j, a[i] / a[j], y, h, a, centre, plane)
+            u += p[j] * influence(i, j, a[i] / a[j], y, h, a, centre, plane)
         overlap = -(g0[i] + B * (y[i] * y[i] + h[i] * h[i] / 3.0 - y0[i])) - u
         out[i] = 0.5 * math.log(max(overlap / (A * a[i] * a[i]), 1e-3))
     e = 0.5 * (1.0 - on_circle(1, n)[0])  # width of the end strip over that of the panel
@@ -106,7 +106,7 @@ def _hertz(aspect, scratch, centre, plane):
     n = scratch.shape[1]
     ln_a, a, p = scratch[1, 0], scratch[1, 1], scratch[1, 2]
     y, h, y0, g0 = scratch[2, 0], scratch[2, 1], scratch[2, 2], scratch[2, 3]
-    _lay(n, -1.0, 1.0, y, h)
+    lay(n, -1.0, 1.0, y, h)
     for i in range(n):
         root = math.sqrt(1.0 - y[i] * y[i])
         ln_a[i], p[i], a[i], y0[i] = math.log(aspect * root), root, aspect * root, y[i] * y[i] + h[i] * h[i] / 3.0
@@ -116,8 +116,8 @@ def _hertz(aspect, scratch, centre, plane):
         g0[i] = 0.0
         edge = 0.0
         for j in range(n):
-            g0[i] -= p[j] * _influence(i, j, 0.0, y, h, a, centre, plane)
-            edge -= p[j] * _influence(i, j, a[i] / a[j], y, h, a, centre, plane)
+            g0[i] -= p[j] * influence(i, j, 0.0, y, h, a, centre, plane)
+            edge -= p[j] * influence(i, j, a[i] / a[j], y, h, a, centre, plane)
         if 4 * i >= n and 4 * i < 3 * n:
             A += (edge - g0[i]) / (a[i] * a[i])
             weight += 1.0
@@ -187,8 +187,8 @@ def _fill_offset_layer(aspect, scratch, centre, plane, layer):
         for k in range(n):
             if k != i:
                 X, step = a[i] / a[k], _DIFFERENCE * a[i] / a[k]
-                change = _influence(i, k, X - step, y, h, a, centre, plane)
-                change -= _influence(i, k, X + step, y, h, a, centre, plane)
+                change = influence(i, k, X - step, y, h, a, centre, plane)
+                change -= influence(i, k, X + step, y, h, a, centre, plane)
                 # of (u+ - u-)/(4 A a) by an offset of strip k, and by one of strip i
                 slope = p[k] * change / (_DIFFERENCE * a[i]) / (4.0 * A * a[i])
                 jacobian[i, k] -= slope

@@ -134,8 +134,8 @@ def fill_columns(cosine_logs: Matrix, centre: Matrix, columns: Cube) -> None:
 
 
 @entry
-def column(columns: Cube, j: int, ln_a: float, scale: float, out: Numbers) -> None:
-    """Fill `out` with U(0, t2) - U(0, t1) of strip j at all strips of its panel, times `scale`.
+def column(columns: Cube, j: int, ln_a: float, scale: float, factors: Numbers, out: Numbers) -> None:
+    """Fill `out` with U(0, t2) - U(0, t1) of strip j at all strips of its panel, times `scale` and `factors`.
 
     The interpolation is cubic in ln(a_j/half width). Its error is 3e-6.
     """
@@ -148,7 +148,7 @@ def column(columns: Cube, j: int, ln_a: float, scale: float, out: Numbers) -> No
     f2, f3 = -(t + 1.0) * t * (t - 2.0) / 2.0 * scale, (t + 1.0) * t * (t - 1.0) / 6.0 * scale
     c0, c1, c2, c3 = columns[m, j], columns[m + 1, j], columns[m + 2, j], columns[m + 3, j]
     for i in range(out.size):
-        out[i] = f0 * c0[i] + f1 * c1[i] + f2 * c2[i] + f3 * c3[i]
+        out[i] = (f0 * c0[i] + f1 * c1[i] + f2 * c2[i] + f3 * c3[i]) * factors[i]
 
 
 @kernel

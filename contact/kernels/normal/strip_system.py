@@ -34,17 +34,15 @@ def _fill_off_line(first, n, half, workspace, unit):
             left, right = cosine_logs[i, k] - ln_a, cosine_logs[i, k + 1] - ln_a
             if not tabulated:
                 low = at_centre(centre, left)
-                row[i] = scale * abs(at_centre(centre, right) + (low if i == k else -low))
+                row[i] = factors[i] * scale * abs(at_centre(centre, right) + (low if i == k else -low))
             if X > IN_LINE:
                 place, share, ln_X = row_at(X, logarithm(X))
                 low, high = in_row(plane, place, share, left - ln_X), in_row(plane, place, share, right - ln_X)
                 if place < N_X:  # the table gives what differs from the centre line, as in `off_line`
                     low, high = low - in_row(plane, 0, 0.0, left), high - in_row(plane, 0, 0.0, right)
-                    row[i] += scale * (high - low if right > left else low - high)
+                    row[i] += factors[i] * scale * (high - low if right > left else low - high)
                 else:
-                    row[i] = scale * abs(high - low)
-        for i in range(n):
-            row[i] *= factors[i]
+                    row[i] = factors[i] * scale * abs(high - low)
 
 
 @kernel
@@ -54,14 +52,14 @@ def assemble(panels, n_panels, workspace, skewed, unit):
     `unit` is 1/(pi E*). `skewed` says whether strips lie off each other's centre.
     """
     columns, vectors, matrix = workspace.rule.columns, workspace.space.vectors, workspace.space.matrix
-    n = workspace.rule.cosines.size - 1
+    n, factors = workspace.rule.cosines.size - 1, vectors[Vector.OF_MIDDLE]
     tabulated = columns.shape[1] == n
     for p in range(n_panels):
         first, half = p * n, 0.5 * (panels[2 * p + 1] - panels[2 * p])
         ln_half = math.log(half)
         for k in range(n if tabulated else 0):
             ln_a, scale = vectors[Vector.LN_LENGTH, first + k] - ln_half, vectors[Vector.A, first + k] * unit
-            column(columns, k, ln_a, scale, matrix[first + k, first : first + n])
+            column(columns, k, ln_a, scale, factors[first : first + n], matrix[first + k, first : first + n])
         if skewed or not tabulated:
             _fill_off_line(first, n, half, workspace, unit)
     if n_panels > 1:
@@ -98,7 +96,7 @@ def _add_panel(first, n, logs, ln_unit, skewed, vectors, plane):
                 fill_ln_X(n, pairs)
             trailing = u  # end 0, once the leading one is known
             u = displacement(plane, forces, pairs, k)
-        vectors[Vector.U, i] += vectors[Vector.OF_ENDS, i] * 0.5 * (trailing + u) if skewed else u
+        vectors[Vector.U, i] += vectors[Vector.OF_ENDS, i] * (0.5 * (trailing + u) if skewed else u)
         vectors[Vector.DIFFERENCE, i] += vectors[Vector.OF_DIFFERENCE, i] * (u - trailing) if skewed else 0.0
 
 

@@ -5,9 +5,10 @@ the half lengths and the moves of the ends, depend on them, on the pressures p, 
 
     M p = delta - g,    r_i = 1/2 ln[(delta - g_i - sum E_im p_m)/(C_i a_i²)] = 0,    moves(p) = 0
 
-with the influence M on the middles and E on the ends of strips. `linearise` finds the inverses of M and of the Jacobian of the
-conditions, once for a solution. `follow` then takes a neighbouring gap for the price of a few products. A change of ln a_k
-changes only column k of M and E and row k of E, so all columns together take about as long as two residuals.
+with the influence M on the middles and E on the ends of strips, both with their factors (`factors`). `linearise` finds the
+inverses of M and of the Jacobian of the conditions, once for a solution. `follow` then takes a neighbouring gap for the price
+of a few products. A change of ln a_k changes column k of M and E, row k of E and, by the a/b of the panel, all factors alike.
+So all columns together take about as long as two residuals.
 
 This holds for a single panel of strips in line that has come to rest, with all inner strips loaded and none at a bound. Other
 patches are iterated anew.
@@ -22,6 +23,7 @@ from contact.kernels.enumerations import Status
 from contact.kernels.normal.analyn import prepare
 from contact.kernels.normal.descent import END_LENGTH
 from contact.kernels.normal.ends import end_move
+from contact.kernels.normal.factors import fill_factor_slopes
 from contact.kernels.normal.influence import (
     LN_T_LOW,
     N_T,
@@ -222,6 +224,8 @@ def linearise(sep: Samples, case: Case, workspace: Workspace, result: Result) ->
     )
     one, other, numbers = tangent[tail + Tangent.ONE], tangent[tail + Tangent.OTHER], tangent[tail + Tangent.NUMBERS]
     ln_a, by_width, narrowed = vectors[Vector.STEP, :n], vectors[Vector.R_OLD, :n], vectors[Vector.U, :n]
+    of_middle, of_ends = vectors[Vector.OF_MIDDLE, :n], vectors[Vector.OF_ENDS, :n]
+    middles_by_ratio, ends_by_ratio, shares = vectors[Vector.Q1], vectors[Vector.Q2], vectors[Vector.DIFFERENCE]
     changes = workspace.space.lu
     low, high = memory[MEM_ENDS], memory[MEM_ENDS + 1]
     delta = result.approach - result.touch
@@ -239,26 +243,30 @@ def linearise(sep: Samples, case: Case, workspace: Workspace, result: Result) ->
     if not _invert(inverse, n, other):
         return False
     _times(inverse, n, one, p)
+    fill_factor_slopes(n, high - low, _STEP, workspace)
     # displacements of the ends, and their responses to the half lengths at the same pressures, in `conditions`
     for i in range(n):
-        at, u, of_own, of_width = logs[i], 0.0, 0.0, 0.0
+        at, u, of_own, of_width, factor = logs[i], 0.0, 0.0, 0.0, unit * of_ends[i]
         for m in range(n):
             shift, bears = ln_half - ln_a[m], p[m] if p[m] > 0.0 else 0.0
             value, by_X, by_Y = _edge(plane, a[i] / a[m], a[m], at[m] + shift, at[m + 1] + shift, i == m)
-            edges[i, m] = unit * value if bears > 0.0 else 0.0
+            edges[i, m] = factor * value if bears > 0.0 else 0.0
             u += edges[i, m] * bears
-            of_width += unit * by_Y * bears
+            of_width += factor * by_Y * bears
             # all lengths together scale the displacement, so its slope by ln a of the other strip follows
-            conditions[i, m] = unit * (value - by_Y - (0.0 if i == m else by_X)) * bears
-            of_own += 0.0 if i == m else unit * by_X * bears
+            conditions[i, m] = factor * (value - by_Y - (0.0 if i == m else by_X)) * bears
+            of_own += 0.0 if i == m else factor * by_X * bears
         conditions[i, i] += of_own
-        overlap[i], by_width[i] = delta - gap[i] - u, of_width
+        by_ratio = ends_by_ratio[i] * u
+        for m in range(n):
+            conditions[i, m] += by_ratio * shares[m]
+        overlap[i], by_width[i] = delta - gap[i] - u, of_width - by_ratio
         narrowed[i] = 0.0
     # responses of the pressures
     for s in range(n):
-        column(columns, s, ln_a[s] + _STEP - ln_half, a[s] * math.exp(_STEP) * unit, one)
+        column(columns, s, ln_a[s] + _STEP - ln_half, a[s] * math.exp(_STEP) * unit, of_middle, one)
         for i in range(n):
-            change = (one[i] - matrix[s, i]) / _STEP * p[s]
+            change = (one[i] - matrix[s, i]) / _STEP * p[s] + middles_by_ratio[i] * (delta - gap[i]) * shares[s]
             narrowed[i] += matrix[s, i] * p[s] - change
             changes[i, s] = -change
     for i in range(n):

@@ -56,21 +56,33 @@ def turned_ellipse(A: float, log_aspect: float, slope: float, by_load: bool) -> 
 
 
 @kernel
-def _mean_slope(first, n, strips):
-    """Return load-weighted mean of y and x_c of a panel's strips, and the slope of x_c over y by least squares."""
+def line_of_middles(pressures, lengths, widths, ys, xs):
+    """Return load-weighted means of y and x of strips, and the slope of x over y by least squares."""
     load, y, x = 0.0, 0.0, 0.0
-    for i in range(first, first + n):
-        weight = strips[Strip.P0, i] * strips[Strip.A, i] * strips[Strip.DY, i]
-        load, y, x = load + weight, y + weight * strips[Strip.Y, i], x + weight * strips[Strip.XC, i]
+    for i in range(ys.size):
+        weight = pressures[i] * lengths[i] * widths[i]
+        load, y, x = load + weight, y + weight * ys[i], x + weight * xs[i]
     if not load > 0.0:
         return 0.0, 0.0, 0.0
     y, x = y / load, x / load
     square, product = 0.0, 0.0
-    for i in range(first, first + n):
-        weight = strips[Strip.P0, i] * strips[Strip.A, i] * strips[Strip.DY, i]
-        away = strips[Strip.Y, i] - y
-        square, product = square + weight * away * away, product + weight * away * (strips[Strip.XC, i] - x)
-    return y, x, product / square if square > 0.0 else 0.0
+    for i in range(ys.size):
+        weight = pressures[i] * lengths[i] * widths[i]
+        away = ys[i] - y
+        square, product = square + weight * away * away, product + weight * away * (xs[i] - x)
+    return y, x, product / max(square, 1e-300)  # of one loaded strip 0/0, which would be a trap
+
+
+@kernel
+def _line(first, last, strips):
+    """Return `line_of_middles` of written strips."""
+    return line_of_middles(
+        strips[Strip.P0, first:last],
+        strips[Strip.A, first:last],
+        strips[Strip.DY, first:last],
+        strips[Strip.Y, first:last],
+        strips[Strip.XC, first:last],
+    )
 
 
 @kernel
@@ -82,7 +94,7 @@ def turn_panels(sep, n_panels, n, strips, skew, by_load, panels, vectors):
     k = 0
     for p in range(n_panels):
         first = p * n
-        at, middle, slope = _mean_slope(first, n, strips)
+        at, middle, slope = _line(first, first + n, strips)
         longest = 0.0
         for i in range(first, first + n):
             longest = max(longest, strips[Strip.A, i])
@@ -131,7 +143,7 @@ def turn_aspects(n, skew, strips):
         while last < n and strips[Strip.PATCH, last] == strips[Strip.PATCH, first]:
             longest, width = max(longest, strips[Strip.A, last]), width + strips[Strip.DY, last]
             last += 1
-        _, _, slope = _mean_slope(first, last - first, strips)
+        _, _, slope = _line(first, last, strips)
         change = skew * _turned_aspect(longest, 0.5 * width, slope)
         for i in range(first, last):
             strips[Strip.LN_ASPECT, i] += change

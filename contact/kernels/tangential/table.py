@@ -30,6 +30,7 @@ from numpy.typing import NDArray
 
 from contact.core import entry, kernel
 from contact.kernels.arrays import FiveD
+from contact.kernels.cubic import convolution
 
 Array = NDArray[np.float64]
 NU = 0.28
@@ -73,21 +74,10 @@ def signs(X, Y, Z):
 
 
 @kernel
-def _weights(t):
-    """Return the weights of four nodes for cubic convolution between the second and the third."""
-    return (
-        ((1.0 - 0.5 * t) * t - 0.5) * t,
-        (1.5 * t - 2.5) * t * t + 1.0,
-        ((2.0 - 1.5 * t) * t + 0.5) * t,
-        (0.5 * t - 0.5) * t * t,
-    )
-
-
-@kernel
 def _cell(u, nodes):
     """Return the first of the four nodes around u in [0, nodes - 1], and their weights."""
     i = max(min(int(u), nodes - 2), 0)
-    return i, _weights(u - i)
+    return i, convolution(u - i)
 
 
 @kernel
