@@ -99,7 +99,7 @@ def forces(
     >>> gap = contact.Separation.hertzian(1.1, 0.8)
     >>> found = contact.forces(gap, ([0.0, 1e-3, 2e-3], 0.0, 0.0), load=80e3)
     >>> found.Fx.round().tolist()
-    [0.0, -11851.0, -19298.0]
+    [0.0, -11844.0, -19292.0]
     """
     separations = [separation] if isinstance(separation, Separation) else list(separation)
     if not separations or not all(isinstance(s, Separation) for s in separations):

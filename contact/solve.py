@@ -145,7 +145,7 @@ def solve(
     >>> gap = contact.Separation.hertzian(1.1, 0.8)
     >>> solution = contact.solve(gap, contact.Creepage(1e-3), load=80e3)
     >>> round(solution.Fx), round(solution.max_pressure / 1e6), solution.status
-    (-11851, 893, <Status.OK: 1>)
+    (-11844, 893, <Status.OK: 1>)
     """
     method, rolling = lookup("normal", normal), lookup("tangential", tangential)
     usual = (_N_OF_HALF_SPACE,) * 2 if method.elementwise else (N_STRIPS.usual, N_ELEMENTS.usual)

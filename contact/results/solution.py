@@ -146,7 +146,7 @@ class Solution(MadeLater):
     >>> gap = contact.Separation.hertzian(1.1, 0.8)
     >>> solution = contact.solve(gap, contact.Creepage(1e-3), load=80e3, speed=20.0)
     >>> round(solution.slip_ratio, 2), round(solution.damage.T_gamma, 1)
-    (0.31, 11.9)
+    (0.31, 11.8)
     """
 
     Fx: float
