@@ -116,7 +116,7 @@ def lay_rule(block: Array, end: int, size: Size) -> tuple[Rule, int]:
     columns, end = cube(block, end, N_COLUMNS if tabulated else 1, n if tabulated else 1, n if tabulated else 1)
     descending = size.interacting != 0 and FEWEST <= n <= MOST
     descent, end = cube(block, end, N_LAYERS if descending else 1, n if descending else 1, n if descending else 1)
-    factored = tabulated and n >= FEWEST
+    factored = tabulated and n >= factors.LEAST
     of_strips, end = cube(
         block, end, factors.N_LAYERS if factored else 1, factors.N_FACTORS if factored else 1, n if factored else 1
     )

@@ -44,11 +44,11 @@ def test_strips_that_interact_are_close_to_hertz_and_say_so():
         assert sol.gap_error < 0.01
 
 
-@pytest.mark.parametrize("n", [12, 20, 40])
+@pytest.mark.parametrize("n", [14, 20, 40])
 def test_the_patch_of_straight_strips_has_hertzs_area(n):
     """Strips of one pressure and length each displace the surface up to .5 % more or less than the ellipse. Before the factors
-    that make up for it the area was .0101, .0034 and .0012 off at most with 12, 20 and 40 strips, the load at a given approach
-    .0029, .0012 and .0004."""
+    that make up for it the area was .0034 and .0012 off at most with 20 and 40 strips, the load at a given approach .0012 and
+    .0004."""
     areas, loads = [], []
     for ratio in np.geomspace(0.03, 30.0, 25):
         A, B = separation(ratio, 1.0)

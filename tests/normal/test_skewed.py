@@ -8,8 +8,7 @@ import pytest
 import contact
 from contact.geometry import profile, wheelset
 from contact.instance import workspace
-from contact.kernels.normal.descent import FEWEST
-from contact.kernels.normal.factors import N_FACTORS, N_LAYERS
+from contact.kernels.normal.factors import LEAST, N_FACTORS, N_LAYERS
 from contact.kernels.normal.turned import turned_ellipse
 from tests.separations import turned
 
@@ -47,7 +46,7 @@ def test_twenty_skewed_strips_are_as_exact_as_straight_ones(P, Q, angle):
     assert sol.approach == pytest.approx(exact.approach, rel=3e-4)
 
 
-@pytest.mark.parametrize("n", [FEWEST, 21, 40])
+@pytest.mark.parametrize("n", [LEAST, 21, 40])
 def test_factors_are_mirror_symmetric_and_near_one(n):
     table = workspace.rule(n, 10, True).factors
     assert table.shape == (N_LAYERS, N_FACTORS, n)

@@ -14,7 +14,7 @@ from contact.core import entry, kernel
 from contact.kernels.arrays import Cube, Matrix
 from contact.kernels.cubic import convolution
 from contact.kernels.hertz import elliptic_integrals
-from contact.kernels.normal.descent import END_LENGTH, END_VALUE, FEWEST, influence, lay
+from contact.kernels.normal.descent import END_LENGTH, END_VALUE, influence, lay
 from contact.kernels.normal.elimination import eliminate
 from contact.kernels.normal.influence import off_line
 from contact.kernels.normal.turned import line_of_middles
@@ -24,6 +24,8 @@ from contact.kernels.rows import Vector
 #: ratios and the largest shear lie beyond its range.
 _LOW, _STEP, _N_RATIOS = -3.5, 0.5, 15
 _SHEAR_STEP, _N_SHEARS = 0.2, 16
+#: Least number of strips of a panel. With fewer the factors beside its ends swing by a per cent, and the ends find no rest.
+LEAST = 14
 #: Rounds in which pressures at the ends and the load come to agree. Each divides what is left by about 20.
 _ROUNDS = 6
 #: Layers of the table. Each has one row for each factor: Vector.OF_MIDDLE, OF_ENDS and OF_DIFFERENCE.
@@ -132,7 +134,7 @@ def _fill_layer(ratio, slope, rows, lu, centre, plane, layer):
 def fill_factors(centre: Matrix, plane: Matrix, scratch: Cube, table: Cube) -> None:
     """Fill the table. `scratch` has two layers of at least eight rows, which are overwritten."""
     n = table.shape[2]
-    if n < FEWEST:
+    if n < LEAST:
         return
     _lay_circle(n, scratch[0])
     for m in range(_N_RATIOS):
@@ -229,7 +231,7 @@ def set_factors(panels, n_panels, skewed, table, n, vectors):
 @kernel
 def has_factors(n, table):
     """Return whether there is a table for `n` strips."""
-    return table.shape[2] == n and n >= FEWEST
+    return table.shape[2] == n and n >= LEAST
 
 
 @kernel
