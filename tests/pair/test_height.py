@@ -44,10 +44,10 @@ def assert_same_from_nothing(pair, pose, kind, within, force=70e3, **options):
 
 @pytest.mark.parametrize("kind", ["load", "vertical"])
 @pytest.mark.parametrize(
-    ("normal", "within"), [("analyn", 1e-8), ("hertz", 1e-8), ("stripes_a", 1e-8), ("strip_halfspace", 1e-4)]
+    ("normal", "within"), [("analyn", 1e-8), ("hertz", 1e-8), ("stripes_a", 1e-8), ("strip_halfspace", 1.5e-4)]
 )
 def test_a_height_found_under_a_load_carries_this_load(normal, within, kind):
-    """The force of interacting strips jumps by 5e-5 at the last pose, by less than 1e-6 at nearly all others."""
+    """The force of interacting strips jumps by 1.2e-4 at the third pose and 70 kN, by less than 1e-6 at nearly all others."""
     pair = WheelRailPair(Pair(WHEEL, RAIL), normal=normal)
     for pose in POSES:
         assert_same_from_nothing(pair, pose, kind, within)
