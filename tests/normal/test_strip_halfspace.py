@@ -160,16 +160,18 @@ def test_a_warm_start_from_elsewhere_takes_no_more_iterations_than_the_cap():
         assert solver.solve(here, NO_CREEP, load=3e4, warm=True, throw=False).iterations <= cap
 
 
-def test_a_warm_start_whose_ends_still_move_is_given_up_early():
-    """It took eight iterations, and then those from nothing."""
+def test_a_warm_start_whose_ends_move_far_and_hardly_less_is_given_up_early():
+    """Six of these took eight iterations, and then those from nothing."""
     pair = wheelset.Pair(profile.s1002(), profile.rail_60e1())
-    warm, cold = contact.Solver(), contact.Solver()
-    for y in np.linspace(5.52e-3, 5.62e-3, 6):
-        (patch,) = [p for p in pair.contacts(wheelset.Pose(y=y, yaw=15e-3), load=6e4) if p.load]
+    warm, cold, lost = contact.Solver(), contact.Solver(), []
+    for y in np.linspace(6.72e-3, 6.84e-3, 7):
+        (patch,) = [p for p in pair.contacts(wheelset.Pose(y=y), load=8e4) if p.load]
         after = warm.solve(patch.separation, NO_CREEP, load=patch.load, warm=True)
         alone = cold.solve(patch.separation, NO_CREEP, load=patch.load)
-        assert after.iterations <= alone.iterations + 6
         assert after.max_pressure == pytest.approx(alone.max_pressure, rel=1e-3)
+        lost.append(after.iterations - alone.iterations)
+    assert max(lost) <= 8
+    assert sum(lost) <= 32
 
 
 def test_a_pressure_peak_narrower_than_a_strip_does_not_jump():

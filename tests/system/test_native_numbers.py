@@ -20,10 +20,10 @@ def cases() -> list[Case]:
     return [random_case(seed) for seed in range(1000)]
 
 
-def check(cases: list[Case], rows: np.ndarray) -> None:
+def check(cases: list[Case], rows: np.ndarray, most: float = 1e-12) -> None:
     differences = np.array([case.differences(row) for case, row in zip(cases, rows, strict=True)])
     print(f"greatest difference {differences.max():.1e}, of {OUTPUTS[differences.max(axis=0).argmax()]}")
-    wrong = {case.seed: f"{d.max():.1e}" for case, d in zip(cases, differences, strict=True) if not d.max() <= 1e-12}
+    wrong = {case.seed: f"{d.max():.1e}" for case, d in zip(cases, differences, strict=True) if not d.max() <= most}
     assert not wrong, wrong
 
 
@@ -48,8 +48,8 @@ def test_native_packaging_equals_the_solver(host, cases):
 
 
 def test_windows_library_equals_the_solver(windows, cases):
-    """It has the exp, log and pow of glibc. Differences of other functions of Windows are not magnified."""
-    check(cases, windows.solve((case.values for case in cases), OUTPUTS))
+    """It has the exp, log and pow of glibc. The table of factors magnifies the last digit of Windows' sin and cos."""
+    check(cases, windows.solve((case.values for case in cases), OUTPUTS), 1e-10)
 
 
 def test_python_packaging_equals_the_solver(open_fmu, cases):

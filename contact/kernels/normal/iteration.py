@@ -24,6 +24,7 @@ from contact.kernels.normal.notes import note, note_event
 from contact.kernels.normal.panels import EARLY_GHOST, GHOST, extend_to_ghosts, start_panels
 from contact.kernels.normal.partition import cut_idle, have_gap, join_panels, part_panels, remove_unloaded
 from contact.kernels.normal.residuals import AT_PEAK, fill_residuals, find_pressures, is_stiff, stands_alone
+from contact.kernels.normal.start import WARM, stirs
 from contact.kernels.normal.strip_system import edge_displacements
 from contact.kernels.normal.turned import turn_panels
 from contact.kernels.rows import Event, Vector
@@ -53,9 +54,6 @@ BRACKET = 12
 SEEK, EVERY = 11, 4
 #: How often panels are parted from one start: parts that grow together again would be parted for ever.
 MOST_PARTED = 3
-#: Iterations in which a warm start has to come to rest. From iteration `SOON` on no end may move by more than `STIRS` of the
-#: width. Otherwise the iteration starts again from ANALYN's solution.
-WARM, SOON, STIRS = 8, 3, 3e-3
 
 
 class Problem(NamedTuple):
@@ -378,7 +376,7 @@ def step(problem, state):
     if not _evaluate(problem, state):
         state.patience = state.number + 1
         return state.warm == 0
-    if state.warm != 0 and state.patience == WARM and state.number >= SOON and state.moved > STIRS:
+    if state.warm != 0 and state.patience == WARM and stirs(state.number, problem.workspace.space.iterates):
         state.patience = state.number + 1
     _fill_step(problem, state)
     state.last_error = state.error / state.load

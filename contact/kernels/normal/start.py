@@ -2,13 +2,16 @@
 
 from contact.core import kernel
 from contact.kernels.records import MAX_PATCHES
-from contact.kernels.rows import Vector
+from contact.kernels.rows import Iterate, Vector
 
 # memory[...]: number of panels, whether all is mirrored, the panels' ends, the outer ends of ANALYN's patches, then ln a and
 # offset of every strip in turns
 MEM_PANELS, MEM_IMAGE, MEM_ENDS, MEM_START, MEM_LN_A = 0, 1, 2, 2 + 2 * MAX_PATCHES, 4 + 2 * MAX_PATCHES
 #: Shift of ANALYN's patch over its width from which on the panels do not move with it.
 _FURTHEST = 0.02
+#: Iterations in which a warm start has to come to rest. From iteration `_SOON` on no end may move by more than `_STIRS` of the
+#: width, unless that is less than `_FALLS` of what it was two iterations before. Otherwise the start is ANALYN's solution.
+WARM, _SOON, _STIRS, _FALLS = 8, 3, 3e-3, 0.7
 
 
 @kernel
@@ -59,3 +62,11 @@ def remember(n_panels, n, low, high, skewed, workspace):
     for i in range(n_panels * n):
         memory[MEM_LN_A + 2 * i] = vectors[Vector.LN_A, i]
         memory[MEM_LN_A + 2 * i + 1] = vectors[Vector.OFFSET, i] if skewed else 0.0
+
+
+@kernel
+def stirs(number, iterates):
+    """Return whether the ends of a warm start still move far in iteration `number`, and hardly less than before."""
+    if number < _SOON:
+        return False
+    return iterates[number, Iterate.MOVED] > max(_STIRS, _FALLS * iterates[number - 2, Iterate.MOVED])

@@ -217,6 +217,12 @@ static int end_of(pid_t child)
     return WEXITSTATUS(how);
 }
 
+static void leave(void)
+{
+    if (version == 2) F2(FreeFMUstate)(instance, &state), F2(FreeInstance)(instance);
+    else F3(FreeFMUState)(instance, &state), F3(FreeInstance)(instance);
+}
+
 /* The number of pointers of a call of an instance, a NULL for each of which must be refused with one message (the first one is
  * the instance). */
 static int pointers_of(int row)
@@ -259,6 +265,7 @@ static int systematic(void)
         pointers[row] = pointers_of(row);
         check(pointers[row] > 0, names[version - 2][row], "does not return");
     }
+    leave();
     for (int situation = 0; situation < N_SITUATIONS; situation++)
         for (int is_cs = !HAS_EXCHANGE; is_cs < 2; is_cs++) {
             fflush(stdout);
