@@ -34,7 +34,7 @@ PAGE = """# Real time
 Written by `python -m benchmarks.real_time --write docs`. The first wheelset of the Manchester vehicle runs {length:g} m at
 {speed:g} m/s, from straight track through a transition into a curve of 300 m, with irregularities in all channels. Its motion
 is recorded every millisecond, {recorded} steps. A host in C, `examples/c/real_time.c`, replays it: both wheels at every step,
-each solution starting from the last one. The machine had two cores, which {crowd:.0f} processes wanted; times are
+each solution starting from the last one. The machine had two cores, and the load was {crowd:.0f}; times are
 those of the processor, except where the clock is named.
 
 ## As fast as possible
