@@ -6,12 +6,14 @@ from dataclasses import dataclass
 
 import numpy as np
 import pytest
+import typer
+from typer.testing import CliRunner
 
 import contact
 from contact.accumulation import Histogram
 from contact.cli import cases
 from contact.geometry import profile
-from contact_fmu import archive, profiles, resources
+from contact_fmu import archive, exchange, profiles, resources
 from contact_models import toml as declared
 from contact_models.runs import checkpoint
 from tests import damaged
@@ -159,16 +161,15 @@ def test_a_file_that_cannot_be_written_leaves_the_old_one(tmp_path):
     assert zipfile.ZipFile(path).read("a") == b"new"
 
 
-def test_the_command_without_options_does_nothing_and_says_how(tmp_path, monkeypatch, capsys):
+def test_the_command_without_options_does_nothing_and_says_what_is_missing(tmp_path):
     path = tmp_path / "user.fmu"
     path.write_bytes(b"anything")
-    monkeypatch.setattr("sys.argv", ["profiles", str(path)])
-    with pytest.raises(SystemExit) as end:
-        profiles.main()
-    assert end.value.code == 2
-    said = capsys.readouterr()
-    assert "--wheel" in said.out
-    assert "give --wheel, --rail or both" in said.err
+    app = typer.Typer()
+    app.command()(exchange.profiles)
+    done = CliRunner().invoke(app, [str(path)])
+    assert done.exit_code == 2
+    assert "give --wheel, --rail or both" in done.stderr
+    assert path.read_bytes() == b"anything"
 
 
 def test_a_profile_of_more_points_than_the_fmu_reads_is_refused():

@@ -59,6 +59,11 @@ class Reading(ProfileFile):
             in_effect(inclination=profile.default_inclination(name))
         return found
 
+    def chosen(self, wheel: str | None, rail: str | None) -> dict[profile.Kind, profile.Profile]:
+        """Return the profiles that have a name."""
+        names: dict[profile.Kind, str | None] = {"wheel": wheel, "rail": rail}
+        return {kind: self.load(name, kind) for kind, name in names.items() if name}
+
 
 @dataclass
 class SlidingFriction:

@@ -56,13 +56,15 @@ def exchange(fmu: Path, new: Mapping[str, bytes], kind: str) -> None:
     Raises
     ------
     ContactError
-        If it is no FMU, or lacks one of the files. The message says that it is not `kind`.
+        If it cannot be read, is no FMU, or lacks one of the files. The message says that it is not `kind`.
     """
     try:
         with ZipFile(fmu) as content:
             files = {name: content.read(name) for name in content.namelist()}
     except (BadZipFile, zlib.error, NotImplementedError, RuntimeError, EOFError) as error:
         raise ContactError(f"{fmu} is not an FMU, or it is damaged: {error}") from None
+    except OSError as error:
+        raise ContactError(f"{fmu} cannot be read: {error.strerror}") from None
     if missing := new.keys() - files.keys():
         raise ContactError(f"{fmu} has no {', '.join(sorted(missing))}: it is not {kind}")
     write(fmu, {**files, **new}.items())

@@ -1,9 +1,10 @@
-"""`contact fmu`: build the FMUs."""
+"""`contact fmu`, in a checkout also ``python build_fmu.py``: build the FMUs."""
 
 from __future__ import annotations
 
 import contextlib
 import sys
+from dataclasses import dataclass
 from enum import StrEnum
 from pathlib import Path
 from typing import Annotated
@@ -14,6 +15,7 @@ from contact.cli import arguments
 from contact.cli import options as opt
 from contact.cli.document import document
 from contact.cli.output import reported, stop
+from .tables.wheel_rail_contact import POINTS
 
 
 class Packaging(StrEnum):
@@ -27,59 +29,63 @@ class Packaging(StrEnum):
 PROFILE = "a name of `contact profiles`, or a file"
 
 
-@reported
-def fmu(
-    *,
+@dataclass
+class Options:
+    """What to build."""
+
     packaging: Annotated[
         Packaging | None,
         typer.Option(
             help="python: for hosts with Python; native (the default): for any host. Each has a folder of its name. Given "
             "without --model or --fmi it asks for every FMU of that packaging."
         ),
-    ] = None,
+    ] = None
     model: Annotated[
         list[str] | None,
         typer.Option(
             help="FMU to build, or all; may be repeated. Default: Vehicle with --vehicle, WheelRailSurfaces with "
             "--surfaces, else WheelRailPair."
         ),
-    ] = None,
-    fmi: Annotated[str | None, typer.Option(help="Version of FMI: 2 (default), 3 (native only) or all.")] = None,
+    ] = None
+    fmi: Annotated[str | None, typer.Option(help="Version of FMI: 2 (default), 3 (native only) or all.")] = None
     platform: Annotated[
         list[str] | None,
         typer.Option(
             help="System of a library in the FMUs: linux64, win64, darwin64 (default: all three); may be repeated."
         ),
-    ] = None,
-    out: Annotated[Path, typer.Option(help="Folder for the FMUs.")] = Path("dist"),
-    points: Annotated[
-        int | None,
-        typer.Option(help="Samples of the separation of WheelRailContact."),
-    ] = None,
-    wheel: Annotated[str | None, typer.Option(help=f"Profile of the wheel: {PROFILE}.")] = None,
-    rail: Annotated[str | None, typer.Option(help=f"Profile of the rail: {PROFILE}.")] = None,
-    reading: arguments.Reading,
+    ] = None
+    out: Annotated[Path, typer.Option(help="Folder for the FMUs.")] = Path("dist")
+    points: Annotated[int, typer.Option(help="Samples of the separation of WheelRailContact, at least 3.")] = POINTS
     accumulation: Annotated[
         bool, typer.Option("--accumulation", help="Give WheelRailPair the outputs of accumulated damage, 1500 numbers.")
-    ] = False,
+    ] = False
     surfaces: Annotated[
         bool, typer.Option("--surfaces", help="Add the native FMU WheelRailSurfaces: crossings, flats, polygons.")
-    ] = False,
+    ] = False
     vehicle: Annotated[
         Path | None,
         typer.Option(help="File of a scenario: adds its vehicle as the native FMUs Vehicle and OpenVehicle."),
-    ] = None,
+    ] = None
     arm: Annotated[
         bool, typer.Option("--arm", help="Add libraries for 64-bit ARM to the native FMUs (some minutes).")
-    ] = False,
-    describe: Annotated[
-        bool, typer.Option("--describe", help="Print the variables as Markdown and build nothing.")
-    ] = False,
+    ] = False
+    describe: Annotated[bool, typer.Option("--describe", help="Print the variables as Markdown and build nothing.")] = (
+        False
+    )
     validation: Annotated[
         Path | None,
         typer.Option(help="Write a validation set for each FMU into this folder; contact fmu-check compares with it."),
-    ] = None,
-    force: Annotated[bool, typer.Option("--force", help="Overwrite validation sets that exist.")] = False,
+    ] = None
+    force: Annotated[bool, typer.Option("--force", help="Overwrite validation sets that exist.")] = False
+
+
+@reported
+def fmu(
+    *,
+    options: Options,
+    wheel: Annotated[str | None, typer.Option(help=f"Profile of the wheel: {PROFILE}.")] = None,
+    rail: Annotated[str | None, typer.Option(help=f"Profile of the rail: {PROFILE}.")] = None,
+    reading: arguments.Reading,
     as_json: opt.Json = False,
 ) -> None:
     """Build FMUs: by default WheelRailPair, native, FMI 2.0.
@@ -88,53 +94,19 @@ def fmu(
 
     Example:  contact fmu --wheel S1002 --rail 60E1 --out dist
     """
-    options = {
-        "packaging": packaging,
-        "out": out,
-        "points": points,
-        "vehicle": vehicle,
-        "wheel": wheel,
-        "rail": rail,
-        "fmi": fmi,
-        "validation": validation,
-        **vars(reading),
-    }
-    repair, rotation = options.pop("profile_repair"), options.pop("profile_rotation")
-    pairs = {name: options.pop(name) for name in ("profile_columns", "profile_rows")}
-    words = [f"--{name.replace('_', '-')}={value}" for name, value in options.items() if value is not None]
-    for name, pair in pairs.items():
-        words += [f"--{name.replace('_', '-')}", *map(str, pair)] if pair else []
-    words += ["--profile-rotation", *map(str, rotation)]
-    words += [f"--model={one}" for one in model or ()]
-    words += [f"--platform={one}" for one in platform or ()]
-    switches = {
-        "--accumulation": accumulation,
-        "--surfaces": surfaces,
-        "--arm": arm,
-        "--describe": describe,
-        "--force": force,
-        "--profile-repair": repair,
-    }
-    words += [word for word, on in switches.items() if on]
     with contextlib.redirect_stdout(sys.stderr) if as_json else contextlib.nullcontext():
-        _build(words)
-    if not as_json:
-        return
-    files = sorted(str(path) for path in out.rglob("*") if path.suffix in (".fmu", ".ssp"))
-    typer.echo(document({"files": files}))
+        try:
+            from .build import build
 
-
-def _build(words: list[str]) -> None:
-    """Build the FMUs, or say what is not installed."""
-    try:
-        from .build import main
-
-        main(words, "contact fmu")
-    except ModuleNotFoundError as missing:
-        stop(
-            f"FMUs for hosts with Python need {missing.name}: pip install 'wheelrail-contact[fmu]'. "
-            "Native ones do not: --packaging native",
-            1,
-        )
-    except ImportError as error:
-        stop(str(error), 1)
+            build(options, reading.chosen(wheel, rail))
+        except ModuleNotFoundError as missing:
+            stop(
+                f"FMUs for hosts with Python need {missing.name}: pip install 'wheelrail-contact[fmu]'. "
+                "Native ones do not: --packaging native",
+                1,
+            )
+        except ImportError as error:
+            stop(str(error), 1)
+    if as_json:
+        files = sorted(str(path) for path in options.out.rglob("*") if path.suffix in (".fmu", ".ssp"))
+        typer.echo(document({"files": files}))

@@ -5,12 +5,10 @@
 
 from __future__ import annotations
 
-import argparse
 from pathlib import Path
 
 from contact.arrays import Array
-from contact.errors import ContactError
-from contact_models.runs import scenario, simulated
+from contact_models.runs import simulated
 from contact_models.runs.scenario import Scenario
 from contact_models.vehicle.kernels.layout import TrackRow
 from . import archive, resources
@@ -46,19 +44,9 @@ def exchange(fmu: Path, given: Scenario) -> None:
     archive.exchange(fmu, {f"resources/{TRACK}": pack(given)}, "the FMU of a vehicle")
 
 
-def main() -> None:
-    """Replace the track of the FMU that the command line names."""
-    parser = argparse.ArgumentParser(description="Replace the track in a finished FMU of a vehicle.")
-    parser.add_argument("fmu", type=Path)
-    parser.add_argument("scenario", type=Path, help="TOML file with the table [track]")
-    arguments = parser.parse_args()
-    try:
-        given = scenario.read(arguments.scenario)
-        given.require_profiles(arguments.scenario.name, "the FMUs of a vehicle take")
-        exchange(arguments.fmu, given)
-    except (ContactError, ImportError, OSError) as error:
-        parser.error(str(error))
-
-
 if __name__ == "__main__":
-    main()
+    import typer
+
+    from . import exchange as commands
+
+    typer.run(commands.track)

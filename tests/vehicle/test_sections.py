@@ -5,11 +5,12 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+import typer
 
 from contact.errors import ContactError
 from contact.geometry import profile
 from contact.geometry.surfaces import RailSurface
-from contact_fmu import catalogue, track
+from contact_fmu import catalogue, exchange
 from contact_models.life import declared_set
 from contact_models.runs import report, result
 from contact_models.runs.run import VehicleRun
@@ -205,16 +206,15 @@ def test_fingerprint_changes_with_the_slices(short):
     assert read_scenario(short).fingerprint != before
 
 
-def test_wear_and_fmus_refuse_slices(short, capsys, monkeypatch):
+def test_wear_and_fmus_refuse_slices(short, capsys):
     path = short.parent / "set.toml"
     path.write_text('name = "s"\nmileage = 1e6\n[[scenarios]]\nfile = "crossing.toml"\nweight = 1.0\n')
     with pytest.raises(ContactError, match=r"set.toml: crossing.toml.rails: a study of wear takes no flats.*slices"):
         declared_set.read(path)
     with pytest.raises(ContactError, match=r"crossing.toml.rails: the FMUs of a vehicle take no .*slices"):
         catalogue.vehicles(short)
-    monkeypatch.setattr("sys.argv", ["track", str(short.parent / "none.fmu"), str(short)])
-    with pytest.raises(SystemExit):
-        track.main()
+    with pytest.raises(typer.Exit):
+        exchange.track(short.parent / "none.fmu", file=short)
     assert "crossing.toml.rails: the FMUs of a vehicle take no flats, polygons and slices" in capsys.readouterr().err
 
 

@@ -52,6 +52,7 @@ _WITHOUT = {
         "description",
         "description_fmi3",
         "documentation",
+        "exchange",
         "first_steps",
         "icon",
         "place",
