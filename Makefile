@@ -96,7 +96,6 @@ bench: $(READY)  ## print the speed tables
 	PYTHONPATH=. $(BIN)/python benchmarks/vehicle_speed.py
 	PYTHONPATH=. $(BIN)/python benchmarks/fmu_speed.py
 	PYTHONPATH=. $(BIN)/python benchmarks/contact_features.py
-	PYTHONPATH=. $(BIN)/python benchmarks/compile_times.py
 
 $(READY_FOR_DOCS): $(READY)
 	$(BIN)/python -m pip install --quiet --editable '.[docs]'

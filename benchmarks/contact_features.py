@@ -17,12 +17,12 @@ import numpy as np
 
 import contact
 import reference
-from benchmarks import bent_surface, feature_times, rail_reference, roller_polygon
+from benchmarks import bent_surface, feature_times, roller_polygon
 from benchmarks.patches_of_sets import BOTH, pair_of, parabolas
 from benchmarks.tables import read_options, summary, table
 from contact.geometry.wheelset import Pose, Velocity
 from contact.halfspace import Gap
-from contact.pair import RollerRig, WheelRailPair
+from contact.pair import ElasticRail, RollerRig, WheelRailPair
 from contact.stress import SurfaceLoad, below
 
 Row = list[str]
@@ -125,7 +125,11 @@ def deflections(folder: Path) -> Iterator[Row]:
         if row["patch"] != "1":
             continue
         v = {name: float(text) for name, text in row.items() if name not in ("id", "mode") and text}
-        s = rail_reference.on_springs(solver, row)
+        springs = ElasticRail(1e3 * v["KYRAIL"], 1e3 * v["KZRAIL"], v["FYRAIL"], v["FZRAIL"])
+        pose = Pose(y=1e-3 * v["y_ws"], z=1e-3 * v["value"] * (row["mode"] == "z"), yaw=v["yaw"])
+        solver.forget()
+        vertical = None if row["mode"] == "z" else v["value"]
+        s = solver.solve(pose, Velocity(2.0, spin=-2.0 / 0.46 * 1.0003), vertical=vertical, rail=springs)
         true = -np.array([v["Fx_tr"], v["Fy_tr"], v["Fz_tr"]])
         forces.append(np.linalg.norm(s.force - true) / np.linalg.norm(true))
         balance = np.array([v["dy_balance"], v["dz_balance"]])

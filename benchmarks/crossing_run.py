@@ -84,31 +84,3 @@ def draw(runs: Mapping[float, Crossed]) -> Figure:
 
     panels = {"right Q [kN]": lines("right"), "left Q [kN]": lines("left")}
     return time_histories(axis, panels, xlabel="place of the axle on the slices [m]")
-
-
-def main(arguments: Sequence[str] | None = None) -> None:
-    """Print a table and write the picture."""
-    given = read_options(__doc__, arguments, vehicle="wheelset", speeds=[20.0], steps=[1e-4], picture=Path)
-    print(
-        "speed, m/s | step, ms | largest and least vertical force, kN | place of the largest, m | two patches on, mm | "
-        "stored, J | energy of the fall, J | residual, J"
-    )
-    runs = {}
-    for speed in given.speeds:
-        for h in given.steps:
-            run = crossed(given.vehicle, speed, h)
-            if h == given.steps[0]:
-                runs[speed] = run
-            most = run.right.argmax()
-            print(
-                f"{speed:g} | {1e3 * h:g} | {1e-3 * run.right[most]:.1f} {1e-3 * run.right.min():.1f} | "
-                f"{run.place[most]:.2f} | {1e3 * speed * h * (run.patches > 1.0).sum():.0f} | {run.stored.max():.1f} | "
-                f"{run.fall(float(run.right[0] + run.left[0])):.0f} | {np.abs(run.residual).max():.2f}",
-                flush=True,
-            )
-    if given.picture:
-        draw(runs).savefig(given.picture)
-
-
-if __name__ == "__main__":
-    main()

@@ -13,7 +13,7 @@ import contact
 from contact.accumulation import Histogram
 from contact.cli import cases
 from contact.geometry import profile
-from contact_fmu import archive, exchange, profiles, resources
+from contact_fmu import archive, profiles, resources
 from contact_models import toml as declared
 from contact_models.runs import checkpoint
 from tests import damaged
@@ -165,7 +165,7 @@ def test_the_command_without_options_does_nothing_and_says_what_is_missing(tmp_p
     path = tmp_path / "user.fmu"
     path.write_bytes(b"anything")
     app = typer.Typer()
-    app.command()(exchange.profiles)
+    app.command()(profiles.replace)
     done = CliRunner().invoke(app, [str(path)])
     assert done.exit_code == 2
     assert "give --wheel, --rail or both" in done.stderr

@@ -14,10 +14,10 @@ from contact.geometry.profile import Kind, Profile
 from contact_models.runs import scenario
 from . import ssp, starts
 from .catalogue import Model, models, surfaces, vehicles
-from .command import Options
 from .documentation import markdown
 from .native import packaging as native
 from .native import systems
+from .options import Options
 from .tables.vehicle import START
 
 #: FMUs by the names of their tables; those that need an option have no form for hosts with Python.

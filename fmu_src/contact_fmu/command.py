@@ -4,10 +4,6 @@ from __future__ import annotations
 
 import contextlib
 import sys
-from dataclasses import dataclass
-from enum import StrEnum
-from pathlib import Path
-from typing import Annotated
 
 import typer
 
@@ -15,76 +11,16 @@ from contact.cli import arguments
 from contact.cli import options as opt
 from contact.cli.document import document
 from contact.cli.output import reported, stop
-from .tables.wheel_rail_contact import POINTS
-
-
-class Packaging(StrEnum):
-    """Whether the FMU is for hosts with Python, for any host (native), or both."""
-
-    python = "python"
-    native = "native"
-    all = "all"
-
-
-PROFILE = "a name of `contact profiles`, or a file"
-
-
-@dataclass
-class Options:
-    """What to build."""
-
-    packaging: Annotated[
-        Packaging | None,
-        typer.Option(
-            help="python: for hosts with Python; native (the default): for any host. Each has a folder of its name. Given "
-            "without --model or --fmi it asks for every FMU of that packaging."
-        ),
-    ] = None
-    model: Annotated[
-        list[str] | None,
-        typer.Option(
-            help="FMU to build, or all; may be repeated. Default: Vehicle with --vehicle, WheelRailSurfaces with "
-            "--surfaces, else WheelRailPair."
-        ),
-    ] = None
-    fmi: Annotated[str | None, typer.Option(help="Version of FMI: 2 (default), 3 (native only) or all.")] = None
-    platform: Annotated[
-        list[str] | None,
-        typer.Option(
-            help="System of a library in the FMUs: linux64, win64, darwin64 (default: all three); may be repeated."
-        ),
-    ] = None
-    out: Annotated[Path, typer.Option(help="Folder for the FMUs.")] = Path("dist")
-    points: Annotated[int, typer.Option(help="Samples of the separation of WheelRailContact, at least 3.")] = POINTS
-    accumulation: Annotated[
-        bool, typer.Option("--accumulation", help="Give WheelRailPair the outputs of accumulated damage, 1500 numbers.")
-    ] = False
-    surfaces: Annotated[
-        bool, typer.Option("--surfaces", help="Add the native FMU WheelRailSurfaces: crossings, flats, polygons.")
-    ] = False
-    vehicle: Annotated[
-        Path | None,
-        typer.Option(help="File of a scenario: adds its vehicle as the native FMUs Vehicle and OpenVehicle."),
-    ] = None
-    arm: Annotated[
-        bool, typer.Option("--arm", help="Add libraries for 64-bit ARM to the native FMUs (some minutes).")
-    ] = False
-    describe: Annotated[bool, typer.Option("--describe", help="Print the variables as Markdown and build nothing.")] = (
-        False
-    )
-    validation: Annotated[
-        Path | None,
-        typer.Option(help="Write a validation set for each FMU into this folder; contact fmu-check compares with it."),
-    ] = None
-    force: Annotated[bool, typer.Option("--force", help="Overwrite validation sets that exist.")] = False
+from .options import Options
+from .profiles import RailName, WheelName
 
 
 @reported
 def fmu(
     *,
     options: Options,
-    wheel: Annotated[str | None, typer.Option(help=f"Profile of the wheel: {PROFILE}.")] = None,
-    rail: Annotated[str | None, typer.Option(help=f"Profile of the rail: {PROFILE}.")] = None,
+    wheel: WheelName = None,
+    rail: RailName = None,
     reading: arguments.Reading,
     as_json: opt.Json = False,
 ) -> None:

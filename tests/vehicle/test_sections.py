@@ -10,7 +10,7 @@ import typer
 from contact.errors import ContactError
 from contact.geometry import profile
 from contact.geometry.surfaces import RailSurface
-from contact_fmu import catalogue, exchange
+from contact_fmu import catalogue, track
 from contact_models.life import declared_set
 from contact_models.runs import report, result
 from contact_models.runs.run import VehicleRun
@@ -214,7 +214,7 @@ def test_wear_and_fmus_refuse_slices(short, capsys):
     with pytest.raises(ContactError, match=r"crossing.toml.rails: the FMUs of a vehicle take no .*slices"):
         catalogue.vehicles(short)
     with pytest.raises(typer.Exit):
-        exchange.track(short.parent / "none.fmu", file=short)
+        track.replace(short.parent / "none.fmu", file=short)
     assert "crossing.toml.rails: the FMUs of a vehicle take no flats, polygons and slices" in capsys.readouterr().err
 
 
