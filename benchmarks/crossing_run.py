@@ -6,15 +6,13 @@ python -m benchmarks.crossing_run --vehicle manchester --speeds 20 --steps 1e-4 
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import replace
-from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
 from matplotlib.figure import Figure
 
-from benchmarks.tables import read_options
 from contact.arrays import Array
 from contact.geometry import profile
 from contact.plot import time_histories

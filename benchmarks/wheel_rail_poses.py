@@ -1,9 +1,8 @@
 """Whole poses of a wheel on a rail against CONTACT (set O): total force at equal height, and every patch by itself.
 
-    python benchmarks/wheel_rail_poses.py FOLDER [--worst 10] [--extract] [--methods normal+tangential+n_strips+n_elements …]
+    python benchmarks/wheel_rail_poses.py FOLDER [--worst 10] [--methods normal+tangential+n_strips+n_elements …]
 
-FOLDER holds `wheel_rail_cases.csv` and `profiles/`, which are not ours to pass on. `--extract` writes the gaps of the patches
-`EXTRACTED`, with CONTACT's answers, into `reference/wheel_rail_patches.json`, for `reference.accuracy` and the tests.
+FOLDER holds `wheel_rail_cases.csv` and `profiles/`, which are not ours to pass on.
 
 * Total force: pose, height and velocity are given; |F - F of CONTACT| over |F of CONTACT|.
 * Patches: of those with N > 500 N, more than 150 elements and a peak below 4 GPa, the force over mu N and the peak pressure.
@@ -13,8 +12,6 @@ FOLDER holds `wheel_rail_cases.csv` and `profiles/`, which are not ours to pass 
 from __future__ import annotations
 
 import csv
-import dataclasses
-import json
 import warnings
 from collections.abc import Iterable
 from functools import cache
@@ -29,18 +26,8 @@ from contact.geometry import profile
 from contact.geometry.wheelset import Pair, Pose, Velocity
 from contact.pair import WheelRailPair
 from contact.study.errors import mean_p95_max
-from reference import FOLDER, STEEL, Patch, accuracy
+from reference import STEEL, Patch, accuracy
 
-#: Patches of `--extract`: those on which ANALYN is furthest off, in pressure, force or `gap_error`, and six ordinary ones.
-EXTRACTED = (
-    *("91.0", "35.0", "98.0", "97.0", "78.1", "73.2", "66.0", "107.0", "9.0", "75.2", "99.0", "104.0", "6.0"),
-    *("12.0", "20.0", "40.0", "60.0", "90.0", "115.0", "120.0"),
-)
-ABOUT = (
-    "Patches of wheels on rails, new, measured and worn, computed with CONTACT 25.1 (rev 2707, Apache-2.0), module 1. The gaps "
-    "are ours, of the same profiles and poses; SI units; forces on the wheel, creepages of the wheel over those of the rail. "
-    "G = 82 GPa, nu = 0.28. 78.1: CONTACT weakens the interaction with the pose's other patch, which is not in the file."
-)
 METHODS = ("analyn+fastrip+30+20", "strip_halfspace+fastrip_mapped+20+20")
 Row = dict[str, str]
 
@@ -111,33 +98,11 @@ def total_errors(poses: Iterable[list[Row]], folder: Path, options: dict[str, An
     return found
 
 
-def extract(chosen: Iterable[Patch]) -> None:
-    """Write the patches `EXTRACTED`, where the gap is below 1 mm."""
-    cases = []
-    for patch in chosen:
-        if patch.name not in EXTRACTED:
-            continue
-        s = patch.separation
-        keep = np.flatnonzero(s.g < 1e-3)
-        cases.append(
-            {
-                "name": patch.name,
-                **{k: [float(f"{v:.7g}") for v in getattr(s, k)[keep]] for k in ("y", "g", "A", "x_c")},
-                "creepage": [float(f"{v:.6g}") for v in (*dataclasses.astuple(patch.creepage),)],
-                **{k: getattr(patch, k) for k in Patch._fields[3:]},
-            }
-        )
-    (FOLDER / "wheel_rail_patches.json").write_text(json.dumps({"about": ABOUT, "cases": cases}, indent=0) + "\n")
-
-
 def main() -> None:
     """Print the table, and the worst patches."""
-    chosen = read_options(__doc__, folder=Path, methods=list(METHODS), worst=0, extract=False)
+    chosen = read_options(__doc__, folder=Path, methods=list(METHODS), worst=0)
     poses = read(chosen.folder).values()
     compared = list(patches(poses, chosen.folder))
-    if chosen.extract:
-        extract(compared)
-        return
     rows, worst = [], []
     for method in chosen.methods:
         normal, tangential, strips, elements = method.split("+")

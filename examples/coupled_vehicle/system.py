@@ -11,49 +11,16 @@ from __future__ import annotations
 
 import argparse
 import shutil
-from collections.abc import Mapping
 from pathlib import Path
 from types import TracebackType
-from typing import Any, Self
+from typing import Self
 
 import fmpy
-from fmpy.fmi2 import FMU2Slave
 from fmpy.ssp.ssd import read_ssd
 
+from contact_models.wheelset.fmu import Fmu
+
 VEHICLE = "vehicle"  # moves last
-
-
-class _Fmu:
-    """One FMU of the system, with its inputs and outputs by name."""
-
-    def __init__(self, path: Path, name: str, start: Mapping[str, str]) -> None:
-        description = fmpy.read_model_description(str(path))
-        self.variables = {v.name: v for v in description.modelVariables}
-        self._folder = fmpy.extract(str(path))
-        self.slave = FMU2Slave(
-            guid=description.guid,
-            unzipDirectory=self._folder,
-            modelIdentifier=description.coSimulation.modelIdentifier,
-            instanceName=name,
-        )
-        self.slave.instantiate()
-        self.slave.setupExperiment(startTime=0.0)
-        for key, value in start.items():
-            variable = self.variables[key]
-            if variable.type == "Integer":
-                self.slave.setInteger([variable.valueReference], [int(value)])
-            else:
-                self.slave.setReal([variable.valueReference], [float(value)])
-        self.slave.enterInitializationMode()
-        self.slave.exitInitializationMode()
-
-    def references(self, names: list[str]) -> list[int]:
-        return [self.variables[name].valueReference for name in names]
-
-    def free(self) -> None:
-        self.slave.terminate()
-        self.slave.freeInstance()
-        shutil.rmtree(self._folder, ignore_errors=True)
 
 
 class VehicleSystem:
@@ -62,17 +29,17 @@ class VehicleSystem:
     def __init__(self, path: Path) -> None:
         system = read_ssd(str(path)).system
         self._folder = Path(fmpy.extract(str(path)))
-        start: dict[str, dict[str, str]] = {element.name: {} for element in system.elements}
+        start: dict[str, dict[str, float]] = {element.name: {} for element in system.elements}
         for binding in system.parameterBindings:
             for parameter in binding.parameterValues[0].parameters:
                 element, name = parameter.name.split(".", 1)
-                start[element][name] = parameter.value
+                start[element][name] = float(parameter.value)
         self.fmus = {
-            each.name: _Fmu(self._folder / each.source, each.name, start[each.name]) for each in system.elements
+            each.name: Fmu(self._folder / each.source, start[each.name], name=each.name) for each in system.elements
         }
         self.time = 0.0
         self._order = sorted(self.fmus, key=lambda name: name == VEHICLE)
-        self._lines: dict[str, list[tuple[_Fmu, list[int], list[int]]]] = {name: [] for name in self.fmus}
+        self._lines: dict[str, list[tuple[Fmu, list[int], list[int]]]] = {name: [] for name in self.fmus}
         for to in self.fmus:
             for source in self.fmus:
                 pairs = [
@@ -88,17 +55,16 @@ class VehicleSystem:
     def step(self, h: float) -> None:
         """Advance all FMUs by `h` [s]: the pairs, then the vehicle."""
         for name in self._order:
-            slave = self.fmus[name].slave
+            fmu = self.fmus[name]
             for source, outputs, inputs in self._lines[name]:
-                slave.setReal(inputs, source.slave.getReal(outputs))
-            slave.doStep(self.time, h)
+                fmu.set(inputs, source.get(outputs))
+            fmu.step(self.time, h)
         self.time += h
 
     def get(self, element: str, name: str) -> float:
         """Return the value of an output."""
         fmu = self.fmus[element]
-        value: list[Any] = fmu.slave.getReal(fmu.references([name]))
-        return float(value[0])
+        return float(fmu.get(fmu.references([name]))[0])
 
     def __enter__(self) -> Self:
         return self

@@ -3,21 +3,18 @@
 from __future__ import annotations
 
 import math
-import shutil
 from pathlib import Path
 from types import TracebackType
 
-import fmpy
 import numpy as np
-from fmpy.fmi2 import FMU2Model
 
 from contact.arrays import Array
 from contact.geometry.wheelset import Pair, Patch, Pose
 from contact_fmu.tables.wheel_rail_contact import POINTS
 from contact_models.runs.scenario import Scenario
+from contact_models.wheelset.fmu import Fmu
 
 WINDOW, SPACING = -0.02, 1e-3  # first sample of a separation and distance of samples [m]
-_APPROACH = 2  # value of load.kind
 _INPUTS = (
     *(f"geometry.{row}[{i}]" for row in "gA" for i in range(1, POINTS + 1)),
     *(f"creepage.{name}" for name in ("longitudinal", "lateral", "spin")),
@@ -49,24 +46,10 @@ class NativeContact:
             given.wheel, given.rail, side=side, **v.sizes, combine_distance=1.0,
             samples=y if side == "right" else -y[::-1],
         )  # fmt: skip
-        description = fmpy.read_model_description(str(fmu))
-        reference = {v.name: v.valueReference for v in description.modelVariables}
-        self._inputs, self._outputs = [reference[n] for n in _INPUTS], [reference[n] for n in _OUTPUTS]
-        self._folder = fmpy.extract(str(fmu))
-        self._fmu = FMU2Model(
-            guid=description.guid, unzipDirectory=self._folder, instanceName=side,
-            modelIdentifier=description.modelExchange.modelIdentifier,
-        )  # fmt: skip
-        self._fmu.instantiate()
-        self._fmu.setupExperiment()
-        start = {"geometry.y0": WINDOW, "geometry.dy": SPACING, "speed": self._speed}
+        start = {"geometry.y0": WINDOW, "geometry.dy": SPACING, "speed": self._speed, "load.kind": "Approach"}
         start |= {"friction.coefficient": given.friction.static, "wheel.radius": v.radius}
-        self._fmu.setReal([reference[n] for n in start], list(start.values()))
-        self._fmu.setInteger([reference["load.kind"]], [_APPROACH])
-        self._fmu.enterInitializationMode()
-        self._fmu.exitInitializationMode()
-        self._fmu.newDiscreteStates()
-        self._fmu.enterContinuousTimeMode()
+        self._fmu = Fmu(fmu, start, name=side, exchange=True)
+        self._inputs, self._outputs = self._fmu.references(_INPUTS), self._fmu.references(_OUTPUTS)
 
     def wrench(self, centre: Array, axle: Array, velocity: Array, rotation: Array) -> Array:
         """Return force [N] and moment about the wheelset's centre [N m] on the wheelset, in track axes, shape (6,).
@@ -94,16 +77,13 @@ class NativeContact:
             total[3:] += np.cross(arm, force) + patch.share * mz * normal
         return total
 
-    def _solve(self, patch: Patch, creepage: tuple[float, float, float]) -> list[float]:
+    def _solve(self, patch: Patch, creepage: tuple[float, float, float]) -> Array:
         """Return the forces of one patch by the FMU: Fx, Fy, N [N], Mz [N m]."""
-        values = [*patch.separation.g.tolist(), *patch.separation.A.tolist(), *creepage, patch.approach]
-        self._fmu.setReal(self._inputs, values)
-        return self._fmu.getReal(self._outputs)
+        self._fmu.set(self._inputs, np.array([*patch.separation.g, *patch.separation.A, *creepage, patch.approach]))
+        return self._fmu.get(self._outputs)
 
     def __enter__(self) -> NativeContact:
         return self
 
     def __exit__(self, kind: type | None, error: BaseException | None, trace: TracebackType | None) -> None:
-        self._fmu.terminate()
-        self._fmu.freeInstance()
-        shutil.rmtree(self._folder, ignore_errors=True)
+        self._fmu.free()
