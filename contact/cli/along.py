@@ -9,20 +9,22 @@ from typing import Annotated, Any
 
 import numpy as np
 import typer
-from rich import box
 from rich.console import Console
-from rich.table import Table
 
 from contact.cli import arguments
 from contact.cli import options as opt
 from contact.cli.output import drawing, reported, require_trusted
 from contact.cli.problem import carried
+from contact.cli.tables import show_table
 from contact.geometry.surfaces import Deviation, RailSurface, SurfacePair, WheelSurface
 from contact.geometry.surfaces.deviation import out_of_round
 from contact.pair import PairRun, solver_for
 
 on_way = partial(typer.Option, rich_help_panel="Way")
-_HEADINGS = ("at\nmm", "z\nmm", "patch", "x\nmm", "y\nmm", "N\nkN", "Fx\nkN", "Fy\nkN", "p max\nMPa", "gap\nerror")
+_HEADINGS = (
+    *(("at", "mm"), ("z", "mm"), ("patch", ""), ("x", "mm"), ("y", "mm")),
+    *(("N", "kN"), ("Fx", "kN"), ("Fy", "kN"), ("p max", "MPa"), ("gap error", "")),
+)
 Begin = Annotated[float, on_way("--from", help="first station of the axle in m")]
 End = Annotated[float, on_way("--to", help="last station in m")]
 Count = Annotated[int, on_way("--points", help="number of stations", min=1)]
@@ -117,11 +119,8 @@ def _wheel(name: str, reading: arguments.Reading) -> WheelSurface:
 
 
 def _show(found: PairRun, console: Console) -> None:
-    table = Table(header_style="bold", box=box.SIMPLE_HEAD, pad_edge=False, padding=(0, 1, 0, 0))
-    for heading in _HEADINGS:
-        table.add_column(heading, justify="right", no_wrap=True)
-    for row in found.patches():
-        table.add_row(
+    rows = [
+        [
             f"{1e3 * row['station']:.1f}",
             f"{1e3 * row['wheel_z']:.4f}",
             str(row["patch"] + 1),
@@ -129,5 +128,7 @@ def _show(found: PairRun, console: Console) -> None:
             *(f"{1e-3 * row[name]:.2f}" for name in ("N", "Fx", "Fy")),
             f"{1e-6 * row['max_pressure']:.0f}",
             f"{row['gap_error']:.3f}",
-        )
-    console.print(table)
+        ]
+        for row in found.patches()
+    ]
+    show_table("", _HEADINGS, rows, console)

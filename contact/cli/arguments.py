@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, fields, replace
 from typing import Any, cast
 
 import typer
@@ -11,7 +11,7 @@ import typer
 from contact.cli import options as opt
 from contact.cli import output
 from contact.cli.document import in_effect
-from contact.cli.problem import OF_A_POSITION, Pose, Position
+from contact.cli.problem import Pose, Position
 from contact.errors import ContactError, warn
 from contact.friction import Friction, as_friction
 from contact.geometry import profile
@@ -140,6 +140,11 @@ class PlaceOptions(Wheels):
             self.gauge,
             self.back_to_back,
         )
+
+
+#: Options that do not apply to two given curvatures. Speed and radius do apply; its damage depends on them.
+OF_A_POSITION = {entry.name for group in (PlaceOptions, Reading) for entry in fields(group)} - {"radius", "speed"}
+OF_A_POSITION |= {"side", "conformal"}
 
 
 @dataclass

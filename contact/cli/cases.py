@@ -13,11 +13,11 @@ from collections.abc import Mapping, Sequence
 from contextlib import suppress
 from dataclasses import fields
 from pathlib import Path
-from typing import Any
+from typing import Any, get_args, get_type_hints
 
 from contact.cli import arguments
 from contact.cli import options as opt
-from contact.cli.problem import OF_A_POSITION, amount_of, find_patches, standard_load
+from contact.cli.problem import amount_of, find_patches, standard_load
 from contact.errors import ContactError, require_number
 from contact.inputs.creepage import Creepage
 from contact.inputs.separation import Separation
@@ -25,23 +25,12 @@ from contact.reading import text
 from contact.reading.columns import number
 from contact.study import Case
 
-_TEXTS = (
-    "name",
-    "wheel",
-    "rail",
-    "inclination",
-    "profile_unit",
-    "profile_side",
-    "profile_zero",
-    "profile_section",
-    "side",
-)
-_NUMBERS = (
-    *("profile_scale", "profile_smoothing", "profile_wavelength", "radius", "gauge", "back_to_back"),
-    *("y", "roll", "yaw", "speed", "load", "penetration", "friction"),
-)
-_SWITCHES = {"profile_repair": {"true": True, "false": False}}
-_LISTS = {"creepage": 3, "curvatures": 2}
+#: Name → type of its value: the options of `contact solve` that make a case.
+_KINDS: dict[str, Any] = {"name": str}
+for _group in (arguments.PlaceOptions, arguments.Reading, arguments.Amount):
+    for _name, _kind in get_type_hints(_group).items():
+        _KINDS[_name] = get_args(_kind)[0] if type(None) in get_args(_kind) else _kind
+_KINDS |= {"side": str, "friction": float, "curvatures": tuple[float, float]}
 
 
 def read(path: Path, defaults: Mapping[str, Any]) -> list[Case]:
@@ -69,7 +58,7 @@ def read(path: Path, defaults: Mapping[str, Any]) -> list[Case]:
         where = f"{path}, case {k}"
         if not isinstance(case, Mapping):
             raise ContactError(f"{where}: {case!r} is not a table of names and values")
-        if "curvatures" in case and (idle := sorted(OF_A_POSITION.intersection(case))):
+        if "curvatures" in case and (idle := sorted(arguments.OF_A_POSITION.intersection(case))):
             raise ContactError(f"{where}: {', '.join(idle)}: curvatures replace wheel, rail and position")
         given = {name: _value(where, name, value) for name, value in (common | dict(case)).items()}
         found += cases_of({"name": f"case {k}", **defaults, **given})
@@ -155,22 +144,22 @@ def _split(content: Any) -> tuple[dict[str, Any], Sequence[Any]]:
 
 def _value(where: str, name: str, value: Any) -> Any:
     """Return the value of `name` with the right type, or raise a ContactError. The solver checks ranges later."""
-    if name in _TEXTS:
+    if name not in _KINDS:
+        raise ContactError(f"{where}: unknown name {name!r}; allowed: {', '.join(_KINDS)}")
+    kind, name = _KINDS[name], f"{where}: {name}"
+    if kind is str:
         return str(value)
-    if name in _NUMBERS:
-        return _number(f"{where}: {name}", value)
-    if name in _SWITCHES:
-        if str(value).lower() not in _SWITCHES[name]:
-            raise ContactError(f"{where}: {name} = {value!r} is neither true nor false")
-        return _SWITCHES[name][str(value).lower()]
-    if name in _LISTS:
-        parts = value.split() if isinstance(value, str) else value
-        if not isinstance(parts, list) or len(parts) != _LISTS[name]:
-            raise ContactError(f"{where}: {name} = {value!r} is not a list of {_LISTS[name]} numbers")
-        return tuple(_number(f"{where}: {name}", part) for part in parts)
-    raise ContactError(
-        f"{where}: unknown name {name!r}; allowed: {', '.join((*_TEXTS, *_NUMBERS, *_SWITCHES, *_LISTS))}"
-    )
+    if kind is bool:
+        if (word := str(value).lower()) not in ("true", "false"):
+            raise ContactError(f"{name} = {value!r} is neither true nor false")
+        return word == "true"
+    if kind is float:
+        return _number(name, value)
+    count, parts = len(get_args(kind)), value.split() if isinstance(value, str) else value
+    if not isinstance(parts, list) or len(parts) != count:
+        raise ContactError(f"{name} = {value!r} is not a list of {count} numbers")
+    numbers = tuple(_number(name, part) for part in parts)
+    return tuple(int(x) if one is int and x.is_integer() else x for one, x in zip(get_args(kind), numbers, strict=True))
 
 
 def _number(name: str, value: Any) -> float:

@@ -7,15 +7,13 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from rich import box
 from rich.console import Console
-from rich.markup import escape
-from rich.table import Table
 
 from contact.arrays import Array
 from contact.cli import arguments
 from contact.cli import options as opt
 from contact.cli.output import deliver, drawing, reported
+from contact.cli.tables import show_table
 from contact.geometry import conicity as conicity_of
 from contact.geometry import contact_points, equivalent_conicity, nonlinearity, profile, steering
 from contact.geometry.wheelset import TAPE_FROM_FLANGE_BACK
@@ -24,16 +22,16 @@ _SHOWN = 21  # lines of a printed table of contact points; files contain all lin
 _CURVE = 121  # amplitudes of a drawn curve
 _CURVES = (300.0, 600.0, 1000.0)  # radii [m] for the steering index
 #: Heading, column and factor of the printed table. Files also contain the rolling radii.
-_POINTS: Sequence[tuple[str, str, float]] = (
-    ("y\nmm", "y", 1e3),
-    ("Δr\nmm", "radius_difference", 1e3),
-    ("Δγ\n°", "angle_difference", np.degrees(1.0)),
-    ("γ right\n°", "right_angle", np.degrees(1.0)),
-    ("left\n°", "left_angle", np.degrees(1.0)),
-    ("wheel y\nright", "right_on_wheel", 1e3),
-    ("mm\nleft", "left_on_wheel", 1e3),
-    ("rail y\nright", "right_on_rail", 1e3),
-    ("mm\nleft", "left_on_rail", 1e3),
+_POINTS: Sequence[tuple[tuple[str, str], str, float]] = (
+    (("y", "mm"), "y", 1e3),
+    (("Δr", "mm"), "radius_difference", 1e3),
+    (("Δγ", "°"), "angle_difference", np.degrees(1.0)),
+    (("γ right", "°"), "right_angle", np.degrees(1.0)),
+    (("left", "°"), "left_angle", np.degrees(1.0)),
+    (("wheel y right", "mm"), "right_on_wheel", 1e3),
+    (("left", "mm"), "left_on_wheel", 1e3),
+    (("rail y right", "mm"), "right_on_rail", 1e3),
+    (("left", "mm"), "left_on_rail", 1e3),
 )
 
 
@@ -106,12 +104,12 @@ def conicity(
     columns = {"amplitude": found.amplitude, "conicity": found.conicity, "centre": found.centre, "wavelength": wave}
 
     def show(console: Console) -> None:
-        shown = Table(header_style="bold")
-        for heading in ("amplitude [mm]", "tan γe", "wavelength [m]", "centre [mm]"):
-            shown.add_column(escape(heading), justify="right")
-        for a, c, w, y in zip(found.amplitude, found.conicity, wave, found.centre, strict=True):
-            shown.add_row(f"{1e3 * a:g}", f"{c:.3f}", f"{w:.2f}" if np.isfinite(w) else "-", f"{1e3 * y:.2f}")
-        console.print(f"[bold]{escape(_title(pair))}[/bold]", shown, sep="\n")
+        rows = [
+            [f"{1e3 * a:g}", f"{c:.3f}", f"{w:.2f}" if np.isfinite(w) else "-", f"{1e3 * y:.2f}"]
+            for a, c, w, y in zip(found.amplitude, found.conicity, wave, found.centre, strict=True)
+        ]
+        headings = [(name, "") for name in ("amplitude [mm]", "tan γe", "wavelength [m]", "centre [mm]")]
+        show_table(_title(pair), headings, rows, console)
         if bent is not None:
             console.print(f"nonlinearity parameter {1e-3 * bent:+.3f} 1/mm, from 2 to 4 mm", highlight=False)
         indices = ", ".join(f"{q:.2f} at {R:g} m" for q, R in zip(turned.index, turned.curve_radius, strict=True))
@@ -138,15 +136,9 @@ def list_profiles(as_json: opt.Json = False) -> None:
         for name in profile.names(kind)
     ]
 
-    def show(console: Console) -> None:
-        table = Table(header_style="bold")
-        for heading in ("name", "kind", "also called"):
-            table.add_column(heading)
-        for row in rows:
-            table.add_row(str(row["name"]), str(row["kind"]), ", ".join(row["aliases"]))
-        console.print(table)
-
-    deliver({"profiles": rows}, show=show, as_json=as_json)
+    headings = [("name", ""), ("kind", ""), ("also called", "")]
+    cells = [[str(row["name"]), str(row["kind"]), ", ".join(row["aliases"])] for row in rows]
+    deliver({"profiles": rows}, show=lambda console: show_table("", headings, cells, console), as_json=as_json)
 
 
 def _title(pair: Mapping[str, Any]) -> str:
@@ -163,10 +155,9 @@ def _rows(columns: Mapping[str, Array]) -> list[dict[str, Any]]:
 
 
 def _show_points(columns: Mapping[str, Array], title: str, console: Console) -> None:
-    table = Table(header_style="bold", box=box.SIMPLE_HEAD, pad_edge=False)
-    for heading, _, _ in _POINTS:
-        table.add_column(heading, justify="right")
     n = columns["y"].size
-    for k in np.unique(np.linspace(0, n - 1, min(n, _SHOWN)).round().astype(int)):
-        table.add_row(*(f"{factor * columns[name][k] + 0.0:.2f}" for _, name, factor in _POINTS))
-    console.print(f"[bold]{escape(title)}[/bold]", table, sep="\n")
+    rows = [
+        [f"{factor * columns[name][k] + 0.0:.2f}" for _, name, factor in _POINTS]
+        for k in np.unique(np.linspace(0, n - 1, min(n, _SHOWN)).round().astype(int))
+    ]
+    show_table(title, [heading for heading, _, _ in _POINTS], rows, console)

@@ -12,11 +12,11 @@ from typing import Annotated, Any
 import numpy as np
 import typer
 from rich.console import Console
-from rich.table import Table
 
 from contact import inp as files
 from contact.cli.output import NOT_TRUSTED, reported, require_extra
 from contact.cli.progress import progress_bar
+from contact.cli.tables import show_table
 from contact.errors import ContactError
 from contact.inp.columns import SIGNS
 from contact.inp.compare import TOLERANCE, Difference
@@ -180,26 +180,24 @@ def _show(rows: Sequence[dict[str, Any]], signs: str, console: Console) -> None:
     names = ("FN [N]", "FX [N]", "FY [N]", "APPROACH [mm]", "PMAX [MPa]", "NCON")
     if signs == "ours":
         names = ("N [N]", "Fx [N]", "Fy [N]", "approach [m]", "max_pressure [Pa]", "n_contact")
-    table = Table()
-    for name in ("case", "patch", "status", *names):
-        table.add_column(name, justify="right")
     patches = [row for row in rows if row["patch"] or row["refused"] or row["status"] in ("no contact", "checked")]
-    for row in patches[:_SHOWN]:
-        cells = ("" if row[name] is None else f"{row[name]:.5g}" for name in names)
-        table.add_row(str(row["case"]), str(row["patch"]), row["refused"] or row["status"], *cells)
-    console.print(table)
+    cells = [
+        [str(row["case"]), str(row["patch"]), row["refused"] or row["status"]]
+        + ["" if row[name] is None else f"{row[name]:.5g}" for name in names]
+        for row in patches[:_SHOWN]
+    ]
+    show_table("", [(name, "") for name in ("case", "patch", "status", *names)], cells, console)
     if len(patches) > _SHOWN:
         console.print(f"… and {len(patches) - _SHOWN} more rows; --out writes all")
 
 
 def _show_differences(differences: Sequence[Difference], tolerance: float, console: Console) -> None:
-    table = Table(title="differences, worst first")
-    for name in ("case", "patch", "quantity", "here", "CONTACT", "difference"):
-        table.add_column(name, justify="right")
-    for one in differences[:_SHOWN]:
-        cells = f"{one.ours:.6g}", f"{one.theirs:.6g}", f"{one.error:.2e}"
-        table.add_row(str(one.case), str(one.patch), one.name, *cells)
-    console.print(table)
+    headings = [(name, "") for name in ("case", "patch", "quantity", "here", "CONTACT", "difference")]
+    rows = [
+        [str(one.case), str(one.patch), one.name, f"{one.ours:.6g}", f"{one.theirs:.6g}", f"{one.error:.2e}"]
+        for one in differences[:_SHOWN]
+    ]
+    show_table("differences, worst first", headings, rows, console)
     worst = files.worst_of(differences)
     agree = sum(error <= tolerance for error in worst.values())
     console.print(f"{agree} of {len(worst)} compared cases agree within {tolerance:g}")

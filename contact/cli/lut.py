@@ -11,13 +11,13 @@ from typing import Annotated, Any
 import numpy as np
 import typer
 from rich.console import Console
-from rich.table import Table
 
 from contact.cli import arguments
 from contact.cli import options as opt
 from contact.cli.output import deliver, reported
 from contact.cli.problem import load_or_standard
 from contact.cli.progress import progress_bar
+from contact.cli.tables import show_table
 from contact.errors import ContactError, PlausibilityWarning
 from contact.inputs.plausibility import doubt_values
 from contact.pair import WheelRailPair
@@ -92,12 +92,12 @@ def lut(
         found.write(out)
 
     def show(console: Console) -> None:
-        shown = Table(title=f"Linear interpolation on {check} random points", header_style="bold")
-        for heading in ("table", "rms error", "largest", "largest value", "unit"):
-            shown.add_column(heading, justify="left" if heading in ("table", "unit") else "right")
-        for name, one in errors.items():
-            shown.add_row(name, f"{one.rms:.3g}", f"{one.largest:.3g}", f"{one.scale:.3g}", lookup.TABLES[name])
-        console.print(shown)
+        rows = [
+            [name, f"{one.rms:.3g}", f"{one.largest:.3g}", f"{one.scale:.3g}", lookup.TABLES[name]]
+            for name, one in errors.items()
+        ]
+        headings = [(name, "") for name in ("table", "rms error", "largest", "largest value", "unit")]
+        show_table(f"Linear interpolation on {check} random points", headings, rows, console)
         if found.untrusted:
             console.print(f"{found.untrusted} of {plan.poses} points have no trustworthy solution", highlight=False)
 

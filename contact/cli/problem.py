@@ -19,15 +19,6 @@ from contact.results import Solution
 from contact.solve import solve
 
 STANDARD_LOAD = 80e3  # load [N] if neither load nor penetration is given
-#: Options that do not apply to two given curvatures. Speed and radius do apply; its damage depends on them.
-OF_A_POSITION = frozenset(
-    {
-        *("wheel", "rail", "inclination", "profile_unit", "profile_side", "profile_zero", "profile_repair"),
-        *("profile_scale", "profile_columns", "profile_rows", "profile_section"),
-        *("profile_smoothing", "profile_wavelength", "profile_rotation", "gauge", "back_to_back"),
-        *("side", "y", "roll", "yaw", "conformal"),
-    }
-)
 
 
 @dataclass(frozen=True)

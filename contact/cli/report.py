@@ -8,12 +8,12 @@ from typing import Any
 
 from rich.console import Console
 from rich.markup import escape
-from rich.table import Table
 
 from contact.cli.arguments import Output
 from contact.cli.document import flat
 from contact.cli.output import drawing
 from contact.cli.problem import Touch
+from contact.cli.tables import show_table
 from contact.damage import Damage, evaluate
 from contact.geometry.wheelset import Patch
 from contact.registry import Methods
@@ -64,23 +64,18 @@ LOCAL_DAMAGE: Sequence[tuple[str, str, Callable[[Damage], float]]] = (
 )
 
 
-def titled(title: str, *headings: str) -> Table:
-    """Return an empty table with a title, and columns with these headings."""
-    table = Table(title=escape(title), title_justify="left", title_style="bold", header_style="bold")
-    for heading in headings:
-        table.add_column(heading)
-    return table
-
-
 def show_columns(
     title: str, name: str, rows: Sequence[Mapping[str, Any]], quantities: Sequence[Quantity], console: Console
 ) -> None:
     """Print rows, which `name` names, side by side: their quantities and the status."""
-    table = titled(title, "quantity", "unit", *(row[name] for row in rows))
-    for label, unit, key, factor in quantities:
-        table.add_row(label, unit, *(number(factor * row[key]) for row in rows))
-    table.add_row("status", "", *(row["status"].lower().replace("_", " ") for row in rows))
-    console.print(table)
+    cells = [[label, unit, *(number(factor * row[key]) for row in rows)] for label, unit, key, factor in quantities]
+    cells.append(["status", "", *(row["status"].lower().replace("_", " ") for row in rows)])
+    show_table(title, side_by_side(row[name] for row in rows), cells, console)
+
+
+def side_by_side(names: Iterable[str]) -> list[tuple[str, str]]:
+    """Return the headings of a table of quantities with a column for each name."""
+    return [(name, "") for name in ("quantity", "unit", *names)]
 
 
 def deliver_patches(
@@ -107,24 +102,18 @@ def show(touches: Sequence[Touch], title: str, wheel_radius: float, console: Con
     if not touches:
         console.print(f"[bold]{escape(title)}[/bold]\nno contact: all forces are zero")
         return
-    table = titled(title)
-    table.add_column("quantity")
-    table.add_column("unit", style="dim")
-    for touch in touches:
-        table.add_column(touch.name, justify="right")
+    cells: list[list[str]] = []
     if touches[0].patch is not None:
         patches = [t.patch for t in touches if t.patch is not None]
         for label, unit, value in (*PLACE, *((SHARE,) if any(p.share < 1.0 for p in patches) else ())):
-            table.add_row(label, unit, *(number(value(p)) for p in patches))
-        table.add_section()
+            cells.append([label, unit, *(number(value(p)) for p in patches)])
     for label, unit, of_solution in CONTACT:
-        table.add_row(label, unit, *(number(of_solution(t.solution)) for t in touches))
-    table.add_row("status", "", *(t.solution.status.name.lower().replace("_", " ") for t in touches))
-    table.add_section()
+        cells.append([label, unit, *(number(of_solution(t.solution)) for t in touches)])
+    cells.append(["status", "", *(t.solution.status.name.lower().replace("_", " ") for t in touches)])
     damages = [evaluate(t.solution, wheel_radius) for t in touches]
     for label, unit, of_damage in (*DAMAGE, *(LOCAL_DAMAGE if damages[0].has_fields else ())):
-        table.add_row(label, unit, *(number(of_damage(d)) for d in damages))
-    console.print(table)
+        cells.append([label, unit, *(number(of_damage(d)) for d in damages)])
+    show_table(title, side_by_side(touch.name for touch in touches), cells, console)
 
 
 def data(touch: Touch, wheel_radius: float) -> dict[str, Any]:
@@ -161,23 +150,15 @@ def data(touch: Touch, wheel_radius: float) -> dict[str, Any]:
 
 def show_methods(methods: Methods, console: Console) -> None:
     """Print tables of the registered methods."""
+    headings = [(name, "") for name in ("name", "method", "source", "can do")]
     for kind, known in methods._asdict().items():
-        table = titled(f"{kind} methods")
-        table.add_column("name", no_wrap=True)
-        for heading in ("method", "source", "can do"):
-            table.add_column(heading)
-        for method in known.values():
-            table.add_row(method.name, method.title, method.source, ", ".join(method.abilities))
-        console.print(table)
+        rows = [[method.name, method.title, method.source, ", ".join(method.abilities)] for method in known.values()]
+        show_table(f"{kind} methods", headings, rows, console)
 
 
 def show_curve(
     values: Iterable[float], relative: Mapping[str, Sequence[float]], axis: str, force: str, console: Console
 ) -> None:
     """Print creep curves, one column for each method."""
-    table = titled(f"{force} over {axis}")
-    for heading in (axis, *relative):
-        table.add_column(escape(heading), justify="right")
-    for k, value in enumerate(values):
-        table.add_row(f"{value:.5g}", *(f"{column[k]:.4f}" for column in relative.values()))
-    console.print(table)
+    rows = [[f"{value:.5g}", *(f"{column[k]:.4f}" for column in relative.values())] for k, value in enumerate(values)]
+    show_table(f"{force} over {axis}", [(name, "") for name in (axis, *relative)], rows, console)

@@ -14,7 +14,8 @@ from contact.cli import options as opt
 from contact.cli.document import flat
 from contact.cli.output import drawing, reported
 from contact.cli.problem import Touch
-from contact.cli.report import titled
+from contact.cli.report import side_by_side
+from contact.cli.tables import show_table
 from contact.errors import require_number
 from contact.stress import Endurance, SurfaceLoad, dang_van, largest
 from contact.stress.field import CRITERIA, require_criterion
@@ -92,12 +93,10 @@ def _show(touches: Sequence[Touch], found: Sequence[dict[str, Any]], body: str, 
     if not touches:
         console.print("no contact: no stress")
         return
-    table = titled(f"Largest stresses in the {body}", "quantity", "unit")
-    for touch in touches:
-        table.add_column(touch.name, justify="right")
+    cells: list[list[str]] = []
     for name in (*CRITERIA, "dang_van"):
-        table.add_row(name.replace("_", " "), "MPa", *(number(1e-6 * one[name]["value"]) for one in found))
-        table.add_row("  depth", "mm", *(number(1e3 * one[name]["z"]) for one in found))
+        cells.append([name.replace("_", " "), "MPa", *(number(1e-6 * one[name]["value"]) for one in found)])
+        cells.append(["  depth", "mm", *(number(1e3 * one[name]["z"]) for one in found)])
     if "passages" in found[0]:
-        table.add_row("passages to failure", "", *(number(one["passages"]) for one in found))
-    console.print(table)
+        cells.append(["passages to failure", "", *(number(one["passages"]) for one in found)])
+    show_table(f"Largest stresses in the {body}", side_by_side(touch.name for touch in touches), cells, console)

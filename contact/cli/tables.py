@@ -1,4 +1,4 @@
-"""Print the tables of `contact.study` in the terminal."""
+"""Tables in the terminal."""
 
 from __future__ import annotations
 
@@ -15,7 +15,34 @@ from rich.table import Table as RichTable
 
 from contact.cli.document import document
 from contact.cli.output import write_all
-from contact.study.table import Table
+
+#: Signs with which numbers begin. A column without numbers is text, on the left.
+_OF_NUMBERS = "0123456789-+−."
+
+
+def show_table(
+    caption: str, headings: Sequence[tuple[str, str]], rows: Sequence[Sequence[str]], console: Console
+) -> None:
+    """Print a table within 80 columns: headings with their units, and rows. A pair of methods takes two lines."""
+    shown = RichTable(
+        box=box.SIMPLE_HEAD,
+        header_style="bold",
+        pad_edge=False,
+        show_edge=False,
+        collapse_padding=True,
+        title=escape(caption) or None,
+        title_justify="left",
+        title_style="bold",
+    )
+    for k, (name, unit) in enumerate(headings):
+        heading = f"{escape(name)}\n[dim]{escape(unit)}[/dim]" if unit else escape(name)
+        right = k > 0 and any(row[k][:1] in _OF_NUMBERS for row in rows if row[k])
+        shown.add_column(
+            heading, justify="right" if right else "left", vertical="bottom" if right else "top", no_wrap=not k
+        )
+    for name, *cells in rows:
+        shown.add_row(escape(name.replace(" + ", "\n+ ")), *map(escape, cells))
+    console.print(shown)
 
 
 def show_study(found: Any, *, as_json: bool, out: Sequence[Path] | None, notes: Iterable[str] = ()) -> None:
@@ -24,29 +51,8 @@ def show_study(found: Any, *, as_json: bool, out: Sequence[Path] | None, notes: 
         typer.echo(document(json.loads(found.json())))
     else:
         console = Console()
-        show_tables(found.tables(), console)
+        for table in found.tables():
+            show_table(table.caption, table.headings, table.rows, console)
         for note in notes:
             console.print(note, style="dim", highlight=False)
     write_all(found, out or [])
-
-
-def show_tables(tables: Iterable[Table], console: Console) -> None:
-    """Print tables within 80 columns. A pair of methods takes two lines."""
-    for table in tables:
-        shown = RichTable(
-            box=box.SIMPLE_HEAD,
-            header_style="bold",
-            pad_edge=False,
-            show_edge=False,
-            collapse_padding=True,
-            title=escape(table.caption),
-            title_justify="left",
-            title_style="",
-        )
-        (first, _), *others = table.headings
-        shown.add_column(first, no_wrap=True)
-        for name, unit in others:
-            shown.add_column(f"{escape(name)}\n[dim]{escape(unit)}[/dim]", justify="right", vertical="bottom")
-        for name, *cells in table.rows:
-            shown.add_row(escape(name.replace(" + ", "\n+ ")), *map(escape, cells))
-        console.print(shown)

@@ -13,14 +13,13 @@ from typing import Annotated, Any, cast
 import numpy as np
 import typer
 from rich.console import Console
-from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
-from rich.table import Table
 
 import contact
 from contact.arrays import Array
 from contact.cli import options as opt
 from contact.cli.output import deliver, drawing, reported, stop
-from contact.cli.report import titled
+from contact.cli.progress import progress_bar
+from contact.cli.tables import show_table
 from contact.geometry.wheelset import Irregularity, Pose, Velocity
 from ..runs.scenario import Scenario
 from ..vehicle import linear
@@ -32,6 +31,7 @@ from .master import MOTION, History, Scheme
 from .system import at_start, pair, python_contacts, scenario, simulation
 
 FMUS = ("Wheelset", "WheelRailPair")
+_HEADINGS = (("quantity", ""), ("value", ""))
 PICTURE = 60  # strips and elements, finer than the run, because pictures show single elements
 
 
@@ -65,7 +65,7 @@ def demo(
         with ExitStack() as stack:
             wheelset, contacts = _objects(given, lateral) if python else _fmus(stack, fmus, given, lateral)
             chosen = cast(Scheme, scheme)  # `master.run` refuses other values
-            history, durations = _run(console, wheelset, contacts, step, seconds, chosen)
+            history, durations = _run(wheelset, contacts, step, seconds, chosen)
         out.mkdir(parents=True, exist_ok=True)
         history.write_csv(out / "wheelset.csv")
         _histories(plot, history).savefig(out / "time_histories.png")
@@ -76,7 +76,7 @@ def demo(
         values = _summary(history, given, durations)
         deliver(
             {"summary": values, "files": [str(out / name) for name in files]},
-            show=lambda console: console.print(_table(values)),
+            show=lambda console: show_table("wheelset S1002 on 60E1", _HEADINGS, list(values.items()), console),
             as_json=as_json,
         )
         console.print("wrote " + ", ".join(str(out / name) for name in files))
@@ -111,24 +111,16 @@ def _objects(given: Scenario, lateral: float) -> tuple[AskingVehicle, Sequence[R
 
 
 def _run(
-    console: Console,
-    wheelset: AskingVehicle,
-    contacts: Sequence[ReportingContact],
-    step: float,
-    seconds: float,
-    scheme: Scheme,
+    wheelset: AskingVehicle, contacts: Sequence[ReportingContact], step: float, seconds: float, scheme: Scheme
 ) -> tuple[History, Array]:
     """Return the run and the time of each step [s]. The time of the first step includes the start of the components."""
-    columns = (TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn(), TimeRemainingColumn())
-    with Progress(*columns, console=console) as progress:
-        task = progress.add_task("wheelset, steps", total=None)
-
-        ends = [time.perf_counter()]
+    ends = [time.perf_counter()]
+    with progress_bar() as bar:
 
         def watch(done: int, total: int) -> None:
             ends.append(time.perf_counter())
             if done % 100 == 0 or done == total:
-                progress.update(task, completed=done, total=total)
+                bar(done / total, f"{done} of {total} steps")
 
         history = master.run(wheelset, contacts, step=step, duration=seconds, scheme=scheme, watch=watch)
     return history, np.diff(ends)
@@ -216,11 +208,3 @@ def _critical_speed(given: Scenario) -> float:
     """Return the linear critical speed [m/s]."""
     friction = given.friction.static
     return linear.critical_speed(lambda speed: simulation(scenario(speed, friction), lateral=0.0))
-
-
-def _table(values: dict[str, str]) -> Table:
-    table = titled("wheelset S1002 on 60E1", "quantity", "value")
-    table.columns[1].justify = "right"
-    for name, value in values.items():
-        table.add_row(name, value)
-    return table
