@@ -1,5 +1,6 @@
 """FMU instances of FMI 3.0 for tests. Arrays are variables."""
 
+from collections.abc import Iterable
 from pathlib import Path
 
 import fmpy
@@ -47,8 +48,28 @@ class Instance3:
         values = self._call("get", name)([self.variables[name].valueReference], nValues=int(np.prod(shape)))
         return np.array(values).reshape(shape) if shape else values[0]
 
-    def all(self, *causalities: str) -> dict[str, np.ndarray]:
-        return {name: np.array(self[name]) for name, v in self.variables.items() if v.causality in causalities}
+    def read(self, names: Iterable[str]) -> dict:
+        """Return values, those of arrays as nested lists."""
+        return {name: np.array(self[name]).tolist() for name in names}
+
+    def all(self, *causalities: str) -> dict:
+        return self.read(name for name, v in self.variables.items() if v.causality in causalities)
+
+    def references(self, *groups: Iterable[str]) -> list[list[int]]:
+        return [[self.variables[name].valueReference for name in group] for group in groups]
+
+    def size(self, names: Iterable[str]) -> int:
+        return sum(int(np.prod(self.shape(name))) for name in names)
+
+    def directional(self, unknowns: list[str], knowns: list[str], seed: Iterable[float]) -> np.ndarray:
+        """Return directional derivatives by a seed for each element of the knowns."""
+        references, n = self.references(unknowns, knowns), self.size(unknowns)
+        return np.array(self.fmu.getDirectionalDerivative(*references, list(seed), nSensitivity=n))
+
+    def adjoint(self, unknowns: list[str], knowns: list[str], seed: Iterable[float]) -> np.ndarray:
+        """Return adjoint derivatives by a seed for each element of the unknowns."""
+        references, n = self.references(unknowns, knowns), self.size(knowns)
+        return np.array(self.fmu.getAdjointDerivative(*references, list(seed), nSensitivity=n))
 
     def configure(self, **counts: int) -> "Instance3":
         """Set structural parameters `resolution.…`."""

@@ -1,16 +1,11 @@
 """The FMUs of vehicles: with contacts, and without them in coupled_vehicle.ssp. Both give the run of the one kernel."""
 
-import zipfile
 from dataclasses import replace
-from pathlib import Path
 
 import fmpy
 import numpy as np
 import pytest
-from fmpy.fmi1 import FMICallException
-from fmpy.fmi2 import FMU2Slave
-from fmpy.ssp.ssd import read_ssd
-from pyssp_standard.ssp import SSP
+from fmu_instance import DISCARD, Instance, goes_on, refused
 
 from contact_models.runs import scenario
 from contact_models.vehicle.course import lay
@@ -24,12 +19,6 @@ FAST = ContactOptions(normal="analyn", tangential="fastrip", n_strips=20, n_elem
 COORDINATES = ("x", "y", "z", "roll", "pitch", "yaw")
 
 
-@pytest.fixture(scope="module")
-def folder(native_vehicles) -> Path:
-    """Return the folder of the FMUs and the system of the vehicle."""
-    return native_vehicles
-
-
 def one_kernel(options: ContactOptions = FAST, start: float = START) -> Simulation:
     given = scenario.read(SCENARIO)
     d = given.declared
@@ -37,167 +26,115 @@ def one_kernel(options: ContactOptions = FAST, start: float = START) -> Simulati
     return Simulation(given.vehicle, rows, given.wheel, given.rail, d.friction, options, start=start)
 
 
-class Slave:
-    """The FMU `Vehicle`, driven by fmpy."""
+@pytest.fixture
+def vehicle(native_vehicles, unzipped, freed):
+    """Return a function that instantiates the FMU `Vehicle` with the options of a contact."""
 
-    def __init__(self, folder: Path, options: ContactOptions = FAST, start: float = START, **more: float) -> None:
-        description = fmpy.read_model_description(str(folder / "Vehicle.fmu"))
-        self.variables = {v.name: v for v in description.modelVariables}
-        self.fmu = FMU2Slave(
-            guid=description.guid,
-            unzipDirectory=fmpy.extract(str(folder / "Vehicle.fmu")),
-            modelIdentifier=description.coSimulation.modelIdentifier,
-            instanceName="vehicle",
-        )
-        self.fmu.instantiate()
-        self.fmu.setupExperiment(startTime=0.0)
-        self.time = 0.0
-        self.set("initial.distance", start)
-        self.set("resolution.step", STEP)
-        for name, value in more.items():
-            self.set(name, value)
+    def vehicle(options: ContactOptions = FAST, start: float = START) -> Instance:
+        fmu = freed(Instance(unzipped(native_vehicles / "Vehicle.fmu")))
         for name in ("method.normal", "method.tangential"):
-            variable = self.variables[name]
-            items = {item.name: int(item.value) for item in variable.declaredType.items}
-            self.fmu.setInteger([variable.valueReference], [items[getattr(options, name.split(".")[1])]])
-        for name in ("n_strips", "n_elements", "pace"):
-            self.fmu.setInteger([self.variables[f"resolution.{name}"].valueReference], [getattr(options, name)])
-        self.fmu.enterInitializationMode()
-        self.fmu.exitInitializationMode()
+            items = {item.name: int(item.value) for item in fmu.variables[name].declaredType.items}
+            fmu.update({name: items[getattr(options, name.split(".")[1])]})
+        fmu.update({f"resolution.{name}": getattr(options, name) for name in ("n_strips", "n_elements", "pace")})
+        fmu.update({"initial.distance": start, "resolution.step": STEP, "reference_speed": options.reference_speed})
+        return fmu.initialize()
 
-    def set(self, name: str, value: float) -> None:
-        self.fmu.setReal([self.variables[name].valueReference], [value])
-
-    def get(self, *names: str) -> np.ndarray:
-        return np.array(self.fmu.getReal([self.variables[name].valueReference for name in names]))
-
-    def step(self, h: float) -> None:
-        self.fmu.doStep(self.time, h)
-        self.time += h
-
-    @property
-    def motion(self) -> np.ndarray:
-        return np.array([self.get(*(f"body[{k}].{name}" for name in COORDINATES)) for k in range(1, 8)])
-
-    @property
-    def totals(self) -> np.ndarray:
-        names = ("energy", "worn_volume", "T_gamma")
-        return np.array([self.get(*(f"wheel[{k}].total.{name}" for name in names)) for k in range(1, 9)])
-
-    @property
-    def forces(self) -> np.ndarray:
-        return np.array([self.get(*(f"wheel[{k}].force.{axis}" for axis in "xyz")) for k in range(1, 9)])
+    return vehicle
 
 
-def forces_of(whole: Simulation) -> np.ndarray:
-    wheels = whole.wheels
-    return np.stack((wheels["longitudinal"], wheels["lateral"], -wheels["vertical"]), axis=1)
+def of_wheels(fmu: Instance, *names: str) -> np.ndarray:
+    """Return outputs of the eight wheels, one row for each."""
+    return np.array([list(fmu.read(f"wheel[{k}].{name}" for name in names).values()) for k in range(1, 9)])
 
 
-@pytest.mark.parametrize(
-    ("options", "place", "force"),
-    [
-        (replace(FAST, pace=1), 1e-13, 1e-6),
-        (ContactOptions(pace=1), 1e-13, 1e-6),
-        (FAST, 1e-13, 1e-6),
-        (ContactOptions(), 1e-13, 1e-6),
-    ],
-    ids=["analyn", "default", "analyn, paced", "default, paced"],
-)
-def test_the_fmu_gives_the_run_of_the_one_kernel(folder, options, place, force):
+def totals(fmu: Instance) -> np.ndarray:
+    return of_wheels(fmu, "total.energy", "total.worn_volume", "total.T_gamma")
+
+
+@pytest.mark.parametrize("options", [FAST, ContactOptions()], ids=["analyn", "default"])
+@pytest.mark.parametrize("paced", [False, True])
+def test_the_fmu_gives_the_run_of_the_one_kernel(vehicle, options, paced):
     """Communication steps of ten steps of the integration. The start amid irregularities lifts wheels."""
-    whole, fmu = one_kernel(options), Slave(folder, options)
-    many = MANY if options.pace == 1 else 4 * MANY  # until the vehicle is calm enough
-    for _ in range(many // 10):
+    options = options if paced else replace(options, pace=1)
+    whole, fmu = one_kernel(options), vehicle(options)
+    many = 40 if paced else 10  # until the vehicle is calm enough
+    for _ in range(many):
         whole.advance(STEP, 10)
-        fmu.step(10 * STEP)
-    if options.pace > 1:
-        assert whole.wheel_arrays.last.solutions.mean() < 0.9 * many
+        fmu.step(h=10 * STEP)
+    if paced:
+        assert whole.wheel_arrays.last.solutions.mean() < 9 * many
     assert np.abs(np.diff(whole.wheels["vertical"])).max() > 100.0  # the wheels differ
-    assert np.abs(fmu.motion - whole.state.q).max() <= place
-    assert np.abs(fmu.forces - forces_of(whole)).max() <= force
-    assert fmu.get("energy.residual")[0] == pytest.approx(whole.state.books[Book.RESIDUAL], abs=1e-6)
-    assert fmu.get("energy.dissipated")[0] == pytest.approx(whole.state.books[Book.DISSIPATED], rel=1e-9)
-    assert fmu.get("distance")[0] == pytest.approx(whole.distance, abs=1e-9)
+    motion = [list(fmu.read(f"body[{k}].{name}" for name in COORDINATES).values()) for k in range(1, 8)]
+    assert np.abs(motion - whole.state.q).max() <= 1e-13
+    wheels = whole.wheels
+    wanted = np.stack((wheels["longitudinal"], wheels["lateral"], -wheels["vertical"]), axis=1)
+    assert np.abs(of_wheels(fmu, "force.x", "force.y", "force.z") - wanted).max() <= 1e-6
+    assert fmu["energy.residual"] == pytest.approx(whole.state.books[Book.RESIDUAL], abs=1e-6)
+    assert fmu["energy.dissipated"] == pytest.approx(whole.state.books[Book.DISSIPATED], rel=1e-9)
+    assert fmu["distance"] == pytest.approx(whole.distance, abs=1e-9)
     mirror = np.tile([-1.0, 1.0], 4)  # Y is positive outwards
-    assert fmu.get(*(f"wheel[{k}].Y" for k in range(1, 9))) == pytest.approx(mirror * whole.wheels["lateral"], abs=1e-6)
-    assert fmu.get(*(f"wheel[{k}].Q" for k in range(1, 9))) == pytest.approx(whole.wheels["vertical"], abs=1e-6)
+    assert of_wheels(fmu, "Y")[:, 0] == pytest.approx(mirror * wheels["lateral"], abs=1e-6)
+    assert of_wheels(fmu, "Q")[:, 0] == pytest.approx(wheels["vertical"], abs=1e-6)
 
 
-def test_totals_add_up_what_the_wheels_do(folder):
-    fmu = Slave(folder, start=-12.0)
-    summed = 0.0
+def test_the_fmu_brakes_to_rest_stands_and_rolls_back(vehicle):
+    fmu, found = vehicle(replace(FAST, reference_speed=10.0), start=-12.0), []
+    for speed in (*np.linspace(3.0, 0.0, 150), *np.zeros(50), *np.linspace(0.0, -2.0, 100)):
+        fmu.update({"speed": speed})
+        fmu.step(h=0.01)
+        found.append((fmu["distance"], *totals(fmu)[:, 0], *of_wheels(fmu, "force.z")[:, 0]))
+    places, energies, forces = np.split(np.array(found), (1, 9), axis=1)
+    assert places[150] == pytest.approx(places[199], abs=1e-9)
+    assert places[-1] < places[199] - 0.5
+    assert np.abs(forces / -54.5e3 - 1.0).max() < 0.6  # the bogies pitch
+    assert (np.diff(energies, axis=0) > -1e-9).all()  # friction spends, whatever the direction
+
+
+def test_totals_add_up_what_the_wheels_do(vehicle):
+    fmu, summed = vehicle(start=-12.0), 0.0
     for _ in range(20):
-        fmu.step(STEP)
-        summed += fmu.get("wheel[1].damage.T_gamma")[0] * 15.0 * STEP
-    assert summed > 0.0
-    assert fmu.get("wheel[1].total.T_gamma")[0] == pytest.approx(
-        summed, rel=0.02
-    )  # the speed of the axle itself differs
-    assert fmu.get("wheel[1].total.energy")[0] > 0.0
-    assert fmu.get("wheel[1].total.worn_volume")[0] > 0.0
+        fmu.step(h=STEP)
+        summed += fmu["wheel[1].damage.T_gamma"] * 15.0 * STEP
+    assert fmu["wheel[1].total.T_gamma"] == pytest.approx(summed, rel=0.02)  # the speed of the axle itself differs
+    assert (totals(fmu) > 0.0).all()
 
 
-def test_a_saved_state_continues_to_the_same_bits(folder):
-    """In the same instance and, serialised, in another one. Step by step, so between two solutions of a contact too."""
-    fmu = Slave(folder)
-    fmu.step(40 * STEP)
+def test_a_saved_state_continues_to_the_same_bits(vehicle):
+    """Step by step, so between two solutions of a contact too."""
+    fmu, other = vehicle(), vehicle()
+    fmu.step(h=40 * STEP)
     for _ in range(4):
-        fmu.step(STEP)
-        state, at = fmu.fmu.getFMUState(), fmu.time
-        fmu.step(10 * STEP)
-        there = fmu.motion, fmu.forces, fmu.totals
-        other = Slave(folder)
-        bytes_of_state = fmu.fmu.serializeFMUState(state)
-        for one, its in ((fmu, state), (other, other.fmu.deserializeFMUState(bytes_of_state))):
-            one.fmu.setFMUState(its)
-            one.time = at
-            one.step(10 * STEP)
-            for found, expected in zip((one.motion, one.forces, one.totals), there, strict=True):
-                assert np.array_equal(found, expected)
-        fmu.fmu.setFMUState(state)
-        fmu.time = at
+        fmu.step(h=STEP)
+        at = fmu.time
+
+        def drive(one, at=at):
+            one.step(at, 10 * STEP)
+            return one.all("output")
+
+        goes_on(fmu, other, drive)
 
 
-def test_totals_do_not_depend_on_the_pace(folder):
+def test_totals_do_not_depend_on_the_pace(vehicle):
     found = []
     for pace in (1, 4):
-        fmu = Slave(folder, replace(FAST, pace=pace))
-        fmu.step(400 * STEP)
-        found.append(fmu.totals)
+        fmu = vehicle(replace(FAST, pace=pace))
+        fmu.step(h=400 * STEP)
+        found.append(totals(fmu))
     each, paced = found
     assert (each[:, 0] > 0.0).all()
     assert np.abs(paced / each - 1.0).max() < 0.01
 
 
-def test_the_fmu_brakes_to_rest_stands_and_rolls_back(folder):
-    fmu = Slave(folder, start=-12.0, reference_speed=10.0, speed=3.0)
-    speeds = np.concatenate((np.linspace(3.0, 0.0, 150), np.zeros(50), np.linspace(0.0, -2.0, 100)))
-    places, forces, energies = [], [], []
-    for speed in speeds:
-        fmu.set("speed", speed)
-        fmu.step(0.01)
-        places.append(fmu.get("distance")[0])
-        forces.append(fmu.forces)
-        energies.append(fmu.totals[:, 0])
-    assert places[150] == pytest.approx(places[199], abs=1e-9)
-    assert places[-1] < places[199] - 0.5
-    assert np.abs(np.array(forces)[:, :, 2] / -54.5e3 - 1.0).max() < 0.6  # the bogies pitch
-    assert (np.diff(energies, axis=0) > -1e-9).all()  # friction spends, whatever the direction
-
-
-def test_the_end_of_the_track_is_no_step(folder):
+def test_the_end_of_the_track_is_no_step(vehicle):
     """The track of the scenario ends at 240 m; 40 m more are kept for the bodies ahead."""
-    fmu = Slave(folder, start=239.9)
-    with pytest.raises(FMICallException):
-        fmu.step(0.05)
-    with pytest.raises(FMICallException):
-        Slave(folder, start=-80.0).step(STEP)
+    fmu = vehicle(start=239.9)
+    refused(lambda: fmu.step(h=0.05), DISCARD)
+    refused(lambda: vehicle(start=-80.0), DISCARD)
 
 
-def test_eight_pairs_and_the_open_vehicle_give_the_run_of_the_one_kernel(folder):
+def test_eight_pairs_and_the_open_vehicle_give_the_run_of_the_one_kernel(native_vehicles):
     whole = one_kernel(ContactOptions(pace=1), start=-12.0)
-    with VehicleSystem(folder / "coupled_vehicle.ssp") as system:
+    with VehicleSystem(native_vehicles / "coupled_vehicle.ssp") as system:
         for _ in range(MANY):
             system.step(STEP)
             whole.advance(STEP)
@@ -208,24 +145,10 @@ def test_eight_pairs_and_the_open_vehicle_give_the_run_of_the_one_kernel(folder)
     assert np.abs(lateral - whole.wheels["lateral"]).max() < 1e-6
 
 
-def test_the_system_conforms_to_the_schema(folder, tmp_path):
-    path = folder / "coupled_vehicle.ssp"
-    with SSP(str(path), mode="r") as package, package.system_structure as ssd:
-        ssd.check_compliance(ssd.schemas[ssd.identifier], ssd.namespaces)
-        assert not ssd.check_connections()
-        assert len(ssd.connections()) == 8 * (17 + 6)
-    with zipfile.ZipFile(path) as archive:
-        archive.extractall(tmp_path)
-    for component in read_ssd(str(path)).system.elements:
-        variables = {v.name: v for v in fmpy.read_model_description(str(tmp_path / component.source)).modelVariables}
-        for connector in component.connectors:
-            assert variables[connector.name].causality == connector.kind
-
-
 @pytest.mark.filterwarnings("ignore")
-def test_a_vehicle_that_nothing_carries_is_lost_and_not_simulated_for_ever(folder):
+def test_a_vehicle_that_nothing_carries_is_lost_and_not_simulated_for_ever(native_vehicles):
     """Before, OK was the answer to the end, with coordinates of 1e34 m. It falls 5 m in one second."""
-    path = str(folder / "OpenVehicle.fmu")
+    path = str(native_vehicles / "OpenVehicle.fmu")
     rows = fmpy.simulate_fmu(
         path, stop_time=5.0, step_size=1e-3, output_interval=1e-3, output=["body[1].z"], timeout=60
     )

@@ -1,6 +1,5 @@
 """The FMU `WheelRailContact` through the C interface of FMI."""
 
-import math
 import os
 import shutil
 import subprocess
@@ -11,9 +10,8 @@ import fmpy
 import numpy as np
 import pytest
 from contact_case import CREEPAGES, NAME, posed
-from fmu_instance import DISCARD, ERROR, Instance, refused
+from fmu_instance import ERROR, Instance
 
-import contact
 from contact_fmu.catalogue import models
 from contact_fmu.python.packaging import (
     build,  # imported here, since an FMU that is loaded first brings its own pythonfmu
@@ -34,15 +32,6 @@ def test_the_build_is_reproducible(fmus, tmp_path):
         assert path.read_bytes() == (fmus / path.name).read_bytes()
 
 
-def test_totals_add_up_power_over_steps_of_any_length(fmu):
-    fmu.step(0.0, 1e-3)
-    power, worn = fmu["power.friction"], fmu["damage.archard_volume"] * 30.0
-    fmu.update({"creepage.longitudinal": 3e-3})
-    fmu.step(1e-3, 2e-3)
-    assert fmu["total.energy"] == pytest.approx(power * 1e-3 + fmu["power.friction"] * 2e-3, rel=1e-12)
-    assert fmu["total.worn_volume"] == pytest.approx(worn * 1e-3 + fmu["damage.archard_volume"] * 60e-3, rel=1e-12)
-
-
 def test_creep_stiffness_is_the_slope_of_the_forces(fmu):
     fmu.step()
     slope = [fmu[f"creep_stiffness[{i},1]"] for i in (1, 2, 3)]
@@ -52,38 +41,6 @@ def test_creep_stiffness_is_the_slope_of_the_forces(fmu):
         fmu.step()
         forces.append([fmu["force.x"], fmu["force.y"], fmu["moment.z"]])
     np.testing.assert_allclose(slope, np.subtract(*forces) / (2.0 * h), rtol=1e-3, atol=1e-4 * abs(slope[0]))
-
-
-@pytest.mark.parametrize(
-    ("name", "value", "allowed"),
-    [
-        ("geometry.dy", 0.0, "]0, inf["),
-        ("geometry.dy", -1e-3, "]0, inf["),
-        ("material.poisson_ratio", 0.6, "[0, 0.5]"),
-        ("resolution.n_strips", 3, "[4, 1000]"),
-        ("method.normal", 99, f"[1, {len(contact.methods().batched.normal)}]"),
-    ],
-)
-def test_a_bad_parameter_is_discarded_by_name(open_fmu, name, value, allowed):
-    fmu = open_fmu(NAME)
-    fmu.update({name: value})
-    refused(fmu.initialize, DISCARD)
-    assert fmu.log == [(DISCARD, f"{name} = {value:g} is outside the allowed range {allowed}")]
-    assert all(math.isfinite(v) for v in fmu.all("output").values())
-
-
-def test_a_start_value_out_of_range_is_not_answered_with_ok(open_fmu):
-    """The instance stays in initialisation, where the value can be corrected."""
-    instance = open_fmu(NAME)
-    instance.fmu.setupExperiment(startTime=0.0)
-    instance.fmu.enterInitializationMode()
-    instance.update({"load.normal_force": -1e4})
-    refused(instance.fmu.exitInitializationMode, DISCARD)
-    assert any("load.normal_force = -1" in message for _, message in instance.log)
-    instance.update({"load.normal_force": 8e4})
-    instance.fmu.exitInitializationMode()
-    instance.step()
-    assert instance["status"] == contact.Status.OK
 
 
 def test_instances_do_not_share_anything(open_fmu):

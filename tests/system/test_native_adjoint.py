@@ -12,26 +12,6 @@ MOTION = ("pose.y", "pose.roll", "pose.yaw", "velocity.y", "velocity.yaw", "velo
 MOTION += ("load.normal_force",)
 
 
-def references(fmu, *groups):
-    return [[fmu.variables[name].valueReference for name in group] for group in groups]
-
-
-def size(fmu, names):
-    return sum(int(np.prod(fmu.shape(name))) for name in names)
-
-
-def directional(fmu, unknowns, knowns, u) -> np.ndarray:
-    found = fmu.fmu.getDirectionalDerivative(
-        *references(fmu, unknowns, knowns), list(u), nSensitivity=size(fmu, unknowns)
-    )
-    return np.array(found)
-
-
-def adjoint(fmu, unknowns, knowns, v) -> np.ndarray:
-    found = fmu.fmu.getAdjointDerivative(*references(fmu, unknowns, knowns), list(v), nSensitivity=size(fmu, knowns))
-    return np.array(found)
-
-
 @pytest.fixture(params=["WheelRailContact", "WheelRailPair"])
 def case(request, native, unzipped):
     """Return an instance of model exchange, what its kernels derive, and by what."""
@@ -48,11 +28,11 @@ def test_both_ways_through_the_derivatives_agree(case):
     """v J u by directional derivatives and by adjoint ones, to round-off where the kernels know the derivatives."""
     fmu, unknowns, knowns = case
     rng = np.random.default_rng(3)
-    full = np.array([directional(fmu, unknowns, [known], [1.0]) for known in knowns]).T
+    full = np.array([fmu.directional(unknowns, [known], [1.0]) for known in knowns]).T
     scale = np.abs(full).max(1, keepdims=True)
     for _ in range(5):
         v, u = rng.normal(size=len(unknowns)) / scale[:, 0], rng.normal(size=len(knowns))
-        one, other = v @ directional(fmu, unknowns, knowns, u), adjoint(fmu, unknowns, knowns, v) @ u
+        one, other = v @ fmu.directional(unknowns, knowns, u), fmu.adjoint(unknowns, knowns, v) @ u
         assert one == pytest.approx(other, rel=1e-12)
         assert one == pytest.approx(v @ full @ u, rel=1e-12)
 
@@ -62,40 +42,28 @@ def test_adjoint_derivatives_of_what_the_kernels_do_not_derive(case):
     fmu, unknowns, knowns = case
     unknowns = (unknowns[0], "pressure.max")
     knowns = (*knowns[:2], "geometry.g") if "geometry.g" in fmu.variables else (*knowns[:2], "offset.y")
-    n = size(fmu, knowns)
-    rows = [adjoint(fmu, unknowns, knowns, v) for v in np.eye(2)]
+    n = fmu.size(knowns)
+    rows = [fmu.adjoint(unknowns, knowns, v) for v in np.eye(2)]
     for j in (0, 1, 2 + (n - 3) // 2):
         u = np.zeros(n)
         u[j] = 1.0
-        np.testing.assert_allclose([row[j] for row in rows], directional(fmu, unknowns, knowns, u), rtol=1e-12)
+        np.testing.assert_allclose([row[j] for row in rows], fmu.directional(unknowns, knowns, u), rtol=1e-12)
     assert np.abs(rows).max() > 0.0
-
-
-def test_a_mixed_direction_is_the_sum_of_its_parts(case):
-    """One seed along an input of the matrix and one along another, for outputs inside and outside of the matrix."""
-    fmu, unknowns, knowns = case
-    other = "material.hardness" if "geometry.g" in fmu.variables else "offset.y"
-    other = "geometry.g" if "geometry.g" in fmu.variables else other
-    asked, n = (*unknowns, "pressure.max"), size(fmu, [other])
-    step = np.full(n, 1e-3)
-    single = directional(fmu, asked, knowns[:1], [1e-6]) + directional(fmu, asked, [other], step)
-    together = directional(fmu, asked, [knowns[0], other], [1e-6, *step])
-    np.testing.assert_allclose(together, single, rtol=2e-4, atol=1e-6 * np.abs(single).max())
 
 
 def test_derivatives_belong_to_the_present_values(case):
     """They are kept as long as no input changes, and are the same bits when it comes back."""
     fmu, unknowns, knowns = case
-    before = directional(fmu, unknowns, knowns[:1], [1.0])
+    before = fmu.directional(unknowns, knowns[:1], [1.0])
     at = fmu[knowns[0]]
     fmu.update({knowns[0]: 1.5 * at})
-    between = directional(fmu, unknowns, knowns[:1], [1.0])
+    between = fmu.directional(unknowns, knowns[:1], [1.0])
     fmu.update({knowns[0]: at})
-    np.testing.assert_array_equal(directional(fmu, unknowns, knowns[:1], [1.0]), before)
+    np.testing.assert_array_equal(fmu.directional(unknowns, knowns[:1], [1.0]), before)
     assert (between != before).any()
     state = fmu.fmu.getFMUState()
     fmu.update({knowns[0]: 1.5 * at})
-    directional(fmu, unknowns, knowns[:1], [1.0])
+    fmu.directional(unknowns, knowns[:1], [1.0])
     fmu.fmu.setFMUState(state)
     fmu.fmu.freeFMUState(state)
-    np.testing.assert_array_equal(directional(fmu, unknowns, knowns[:1], [1.0]), before)
+    np.testing.assert_array_equal(fmu.directional(unknowns, knowns[:1], [1.0]), before)

@@ -57,15 +57,6 @@ def test_forces_by_the_scale_of_the_geometry(open_native, scale):
     assert (np.abs(wanted) > 0.01 * np.abs(list(fmu.read(unknowns).values()))).all()
 
 
-def test_a_directional_derivative_adds_up_what_its_seed_says(open_native):
-    fmu = posed(open_native("ModelExchange")).initialize()
-    knowns = [fmu.variables[name].valueReference for name in (*CREEPAGES, "load.normal_force")]
-    unknowns = [fmu.variables[name].valueReference for name in ("force.x", "force.y")]
-    seed = [2e-4, -1e-4, 0.05, 3e3]
-    single = [fmu.fmu.getDirectionalDerivative(unknowns, [k], [s]) for k, s in zip(knowns, seed, strict=True)]
-    np.testing.assert_allclose(fmu.fmu.getDirectionalDerivative(unknowns, knowns, seed), np.sum(single, 0), rtol=1e-4)
-
-
 def test_a_host_may_name_enumerations_with_seeds_of_zero(open_native):
     """OMSimulator hands over every dependency of an initial unknown, whatever its type."""
     fmu = posed(open_native("CoSimulation"))

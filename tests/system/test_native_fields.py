@@ -44,7 +44,7 @@ def test_fields_belong_to_the_last_step_whatever_was_computed_since(open_native_
         fmu.update({"load.normal_force": 8e4 + 2e3 * k})
         fmu.step(k * 1e-3)
     wanted = {name: fmu[name] for name in FIELDS}
-    derivative(fmu, ["force.x"], ["load.normal_force"])
+    fmu.directional(["force.x"], ["load.normal_force"], [1.0])
     fmu.update({"creepage.lateral": 5e-3})
     assert all(np.array_equal(fmu[name], field) for name, field in wanted.items())
     assert fmu["creep_stiffness"].shape == (3, 3)
@@ -65,30 +65,16 @@ def test_without_contact_fields_are_zero(fmu):
     assert not any(np.any(fmu[name]) for name in (*FIELDS, "field.patch"))
 
 
-def derivative(fmu, unknowns: list[str], knowns: list[str], seed=(1.0,)) -> np.ndarray:
-    references = [[fmu.variables[name].valueReference for name in names] for names in (unknowns, knowns)]
-    n = sum(int(np.prod(fmu.shape(name))) for name in unknowns)
-    return np.array(fmu.fmu.getDirectionalDerivative(*references, seed, nSensitivity=n))
-
-
 @pytest.mark.parametrize("known", ["creepage.longitudinal", "load.normal_force"])
 def test_fields_have_directional_derivatives(open_native_fmi3, known):
     """They are compared with differences in model exchange. In full slip no element changes between stick and slip."""
     fmu = pose(open_native_fmi3("ModelExchange"))
     fmu.update({"creepage.longitudinal": 0.05})
     fmu.initialize()
-    slopes = derivative(fmu, ["creep_stiffness", "field.traction_x"], [known])[9:].reshape(SHAPE)
+    slopes = fmu.directional(["creep_stiffness", "field.traction_x"], [known], [1.0])[9:].reshape(SHAPE)
     at, found = fmu[known], []
     for sign in (1.0, -1.0):
         fmu.update({known: at * (1.0 + sign * 1e-5)})
         found.append(fmu["field.traction_x"])
     wanted = (found[0] - found[1]) / (2e-5 * at)
     np.testing.assert_allclose(slopes, wanted, atol=2e-4 * np.max(np.abs(wanted)))
-
-
-def test_a_seed_of_an_array_applies_to_all_its_elements(fmu):
-    """A gap that is wider everywhere has the effect of a smaller approach."""
-    single = [derivative(fmu, ["approach"], ["geometry.g"], np.eye(41)[i].tolist())[0] for i in range(41)]
-    (together,) = derivative(fmu, ["approach"], ["geometry.g"], [1.0] * 41)
-    assert together == pytest.approx(1.0, abs=1e-6)
-    assert sum(single) == pytest.approx(together, abs=1e-4)

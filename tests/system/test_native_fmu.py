@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 from contact_case import posed
-from fmu_instance import DISCARD, ERROR, answered_extremes, refused
+from fmu_instance import ERROR, answered_extremes, refused
 from thesis_case import THESIS
 
 import contact
@@ -17,16 +17,6 @@ def fmu(open_native):
     fmu = posed(open_native())
     fmu.update(THESIS)
     return fmu.initialize(stop_time=1.0)
-
-
-def test_a_bad_parameter_is_discarded_by_name_before_the_first_step(open_native):
-    fmu = open_native()
-    fmu.update({"resolution.n_strips": 3})
-    refused(fmu.initialize, DISCARD)
-    assert fmu.log == [(DISCARD, "resolution.n_strips = 3 is outside the allowed range [4, 1000]")]
-    fmu.update({"resolution.n_strips": 10})
-    fmu.fmu.exitInitializationMode()
-    fmu.step()
 
 
 def test_an_invalid_step_is_an_error_and_changes_nothing(fmu):

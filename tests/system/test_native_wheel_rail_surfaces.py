@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 from differences import derivative, quotient
 from fmpy.fmi1 import FMICallException
-from fmu_instance import DISCARD, Instance, answered_extremes
+from fmu_instance import DISCARD, Instance, answered_extremes, recovers
 from fmu_instance_fmi3 import Instance3
 from pair_case import METHODS, R0, expected, scale, solved
 
@@ -126,6 +126,11 @@ def test_fmi_3_gives_the_same(open_fmu):
             fmu.step()
     for name in ("force.x", "force.z", "moment.y", "wheelset.z", "pressure.max", "gap_error"):
         assert other[name] == one[name]
+
+
+def test_rolling_back_is_refused_by_name(open_fmu):
+    fmu = open_fmu(resources_of("constant")).initialize()
+    recovers(fmu, {"velocity.x": -1.0}, "velocity.x = -1 is outside the allowed range [0, inf[")
 
 
 def test_outputs_do_not_depend_on_the_searches_before(open_fmu):

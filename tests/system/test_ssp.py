@@ -3,7 +3,6 @@
 import subprocess
 import sys
 import zipfile
-from importlib.util import find_spec
 from pathlib import Path
 from xml.etree import ElementTree
 
@@ -20,17 +19,22 @@ from contact_models.vehicle.declared import SIDES
 from contact_models.vehicle.kernels.layout import Axis
 from contact_models.wheelset.system import python_contacts, scenario, simulation
 
-PACKAGINGS = ["python", *(["native"] if find_spec("contact_fmu.native.open_vehicle") else [])]
 N_ANSWERS = 6  # that a pair's FMU has
 STEPS = 60
 
 
-@pytest.fixture(params=PACKAGINGS)
+@pytest.fixture(params=["python", "native"])
 def system(request) -> Path:
     """Return the file that is built in the folder of the FMUs."""
     python = request.param == "python"
     folder = request.getfixturevalue("fmus") if python else request.getfixturevalue("native").parent
     return folder / "coupled.ssp"
+
+
+@pytest.fixture(params=["coupled", "coupled_vehicle"])
+def native_system(request, native, native_vehicles) -> Path:
+    """Return the file of a wheelset, and of a vehicle, with native FMUs."""
+    return (native.parent if request.param == "coupled" else native_vehicles) / f"{request.param}.ssp"
 
 
 def jacobi(step: float, from_nothing: bool = False) -> np.ndarray:
@@ -60,13 +64,20 @@ def by_fmpy(system: Path, step: float) -> np.ndarray:
     return np.stack((rows["vehicle.body[2].y"], rows["vehicle.body[2].yaw"]), axis=1)
 
 
-def test_structure_conforms_to_the_schema(system):
+def test_structure_conforms_to_the_schema_and_connects_variables_of_the_fmus(native_system, tmp_path):
     """The schema is SSP 1.0. fmpy reads it with validation, and pyssp-standard also checks connections."""
-    assert len(read_ssd(str(system)).system.elements) == 3
-    with SSP(str(system), mode="r") as package, package.system_structure as ssd:
+    components = read_ssd(str(native_system)).system.elements
+    with SSP(str(native_system), mode="r") as package, package.system_structure as ssd:
         ssd.check_compliance(ssd.schemas[ssd.identifier], ssd.namespaces)
         assert not ssd.check_connections()
-        assert len(ssd.connections()) == len(SIDES) * (len(QUESTION) + N_ANSWERS)
+        assert len(ssd.connections()) == (len(components) - 1) * (len(QUESTION) + N_ANSWERS)
+    with zipfile.ZipFile(native_system) as archive:
+        archive.extractall(tmp_path)
+    for component in components:
+        variables = {v.name: v for v in fmpy.read_model_description(str(tmp_path / component.source)).modelVariables}
+        assert component.connectors
+        for connector in component.connectors:
+            assert variables[connector.name].causality == connector.kind
 
 
 def test_the_master_of_omsimulator_has_the_step_of_the_other_annotation(system):
@@ -75,17 +86,6 @@ def test_the_master_of_omsimulator_has_the_step_of_the_other_annotation(system):
     (fixed,) = root.iterfind(".//{*}System/{*}Annotations/{*}Annotation[@type='org.openmodelica']//{*}FixedStepMaster")
     (algorithm,) = root.iterfind(".//{*}FixedStepAlgorithm")
     assert float(fixed.get("stepSize")) == float(algorithm.get("baseStepSize")) == STEP
-
-
-def test_connectors_are_variables_of_the_fmus_with_their_causality_and_unit(system, tmp_path):
-    components = read_ssd(str(system)).system.elements
-    with zipfile.ZipFile(system) as archive:
-        archive.extractall(tmp_path)
-    for component in components:
-        variables = {v.name: v for v in fmpy.read_model_description(str(tmp_path / component.source)).modelVariables}
-        assert component.connectors
-        for connector in component.connectors:
-            assert variables[connector.name].causality == connector.kind
 
 
 def test_a_second_structure_has_connectors_of_the_whole(system, tmp_path):
