@@ -1,12 +1,9 @@
 """A driven wheel: the spin answers a force or a torque, CONTACT's spins, unreachable forces, errors."""
 
-import json
-
 import pytest
 
 from contact import Status
 from contact.geometry.wheelset import Pose, Velocity
-from tests.command_line import call
 
 FREE = -2.0 / 0.46
 
@@ -59,13 +56,3 @@ def test_more_than_friction_is_unreachable(pair):
 def test_a_lifted_wheel_has_no_force(pair):
     found = pair.solve(Pose(z=-0.01), Velocity(2.0), force=1e3)
     assert found.status is Status.NO_CONTACT
-
-
-def test_the_command_line_finds_the_rotation_of_a_torque(pair):
-    words = ("rail", "--y", 2e-3, "--vertical", 7e4, "--torque", 5e3)
-    found = json.loads(call(*words, "--json").stdout)["sides"][0]
-    wanted = pair.solve(Pose(y=2e-3), Velocity(20.0), torque=5e3, vertical=7e4)
-    assert found["spin"] == pytest.approx(wanted.spin, rel=1e-6)
-    assert found["My"] == pytest.approx(5e3, abs=1e-2 * 7e4)
-    assert "rotation of the wheel" in call(*words).stdout
-    assert "exactly one of force and torque" in call(*words, "--force", 1e3, code=2).stderr

@@ -9,7 +9,6 @@ from contact import Status
 from contact.geometry import profile
 from contact.geometry.wheelset import Irregularity, Pair, Pose, Velocity
 from contact.pair import ElasticRail, WheelRailPair
-from tests.command_line import call
 
 VELOCITY = Velocity(2.0, spin=-2.0 / 0.46 * 1.0003)
 
@@ -76,15 +75,6 @@ def test_the_deflections_are_contacts(pair, pose, load, springs, preload, deflec
     assert (-s.force[0], -s.force[1]) == pytest.approx(force, abs=20.0 * load)
 
 
-def test_the_left_rail_is_the_mirror_image(pair):
-    left = WheelRailPair(Pair(profile.s1002(), profile.rail_60e1(), side="left"))
-    rail = ElasticRail(8e6, 50e6, 1e3, 0.0)
-    mirrored = ElasticRail(8e6, 50e6, -1e3, 0.0)
-    one = pair.solve(Pose(y=6e-3, yaw=1e-3), VELOCITY, vertical=6e4, rail=rail)
-    other = left.solve(Pose(y=-6e-3, yaw=-1e-3), VELOCITY, vertical=6e4, rail=mirrored)
-    assert other.deflection == pytest.approx((-one.deflection[0], one.deflection[1]), abs=1e-9)
-
-
 def test_a_call_starts_from_the_last_deflection_and_forget_resets_it(pair):
     rail = ElasticRail(8e6, 50e6)
     first = pair.solve(Pose(y=6.5e-3), VELOCITY, vertical=6e4, rail=rail)
@@ -106,14 +96,3 @@ def test_a_damper_pulls_back_in_proportion_to_the_rate():
     assert (rail.ky, rail.kz) == pytest.approx((2e7, 5e7))
     dy = 3e-4  # k dy + c (dy - last)/step = F + P
     assert rail.ky * dy - rail.preload_y == pytest.approx(1e7 * dy + 1e4 * (dy - 1e-4) / 1e-3 - 100.0)
-
-
-def test_the_command_line(pair):
-    words = ("rail", "--y", 6.5e-3, "--vertical", 6e4, "--springs", 8e6, 5e7)
-    assert "lateral deflection" in call(*words).stdout
-    import json
-
-    found = json.loads(call(*words, "--json").stdout)["sides"][0]
-    s = pair.solve(Pose(y=6.5e-3), Velocity(20.0), vertical=6e4, rail=ElasticRail(8e6, 5e7))
-    assert found["deflection_y"] == pytest.approx(s.deflection[0], abs=1e-9)
-    assert "rail.ky = 0" in call(*words[:-2], 0, 1e7, code=2).stderr

@@ -1,6 +1,5 @@
 """A wheel displaced against its wheelset: rigid motions, pitch, mirror image, power, errors."""
 
-import json
 import math
 
 import numpy as np
@@ -11,7 +10,6 @@ from contact.geometry import profile
 from contact.geometry.flexible import WheelOffset
 from contact.geometry.wheelset import Pair, Pose, Velocity
 from contact.pair import ElasticRail, WheelRailPair
-from tests.command_line import call
 
 V = 20.0
 VELOCITY = Velocity(V, 0.02, 0.01, 0.003, 0.01, -V / 0.46 * 1.001)
@@ -72,16 +70,6 @@ def test_a_rate_of_pitch_is_spin_and_pitch_does_nothing(pairs):
     same(found, pairs["right"].solve(Pose(), faster, load=7e4))
 
 
-def test_the_left_wheel_is_the_mirror_image(pairs):
-    one = pairs["right"].solve(
-        Pose(y=2e-3), Velocity(V), load=7e4, offset=WheelOffset(1e-4, 1e-3, 2e-4, 1e-3, 0.0, 2e-3)
-    )
-    offset = WheelOffset(1e-4, -1e-3, 2e-4, -1e-3, 0.0, -2e-3)
-    other = pairs["left"].solve(Pose(y=-2e-3), Velocity(V), load=7e4, offset=offset)
-    np.testing.assert_allclose(other.force, one.force * (1, -1, 1), atol=1e-6 * 7e4)
-    np.testing.assert_allclose(other.moment, one.moment * (-1, 1, -1), atol=1e-6 * 7e4)
-
-
 def test_a_wheel_turned_too_far_with_its_wheelset_is_refused(pairs):
     with pytest.raises(ContactError, match=r"offset.yaw = 0.06: with the wheelset's roll and yaw the wheel is turned"):
         pairs["right"].solve(Pose(yaw=0.05), VELOCITY, load=7e4, offset=WheelOffset(yaw=0.06))
@@ -96,11 +84,3 @@ def test_a_rail_on_springs_under_a_flexible_wheel(pairs):
     rigid = pairs["right"].solve(Pose(y=6e-3), Velocity(V, 0.03), vertical=7e4, rail=rail)
     assert found.deflection == rigid.deflection
     np.testing.assert_array_equal(found.force, rigid.force)
-
-
-def test_the_command_line(pairs):
-    words = ("rail", "--y", 1e-3, "--load", 7e4)
-    found = json.loads(call(*words, "--wheel-offset", 0, 2e-3, 0, 0, 0, 0, "--json").stdout)["sides"][0]
-    wanted = pairs["right"].solve(Pose(y=1e-3), Velocity(20.0), vertical=7e4, offset=WheelOffset(y=2e-3))
-    assert found["Fy"] == pytest.approx(wanted.force[1], abs=10.0)
-    assert "offset.yaw = 0.5 is outside" in call(*words, "--wheel-offset", 0, 0, 0, 0, 0, 0.5, code=2).stderr

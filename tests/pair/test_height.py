@@ -55,9 +55,11 @@ def test_a_height_found_under_a_load_carries_this_load(normal, within, kind):
 
 @pytest.mark.parametrize("kind", ["load", "vertical"])
 @pytest.mark.parametrize(("normal", "within"), [("analyn", 1e-8), ("strip_halfspace", 1e-4)])
-def test_two_patches_carry_the_load_together_at_the_height_found(normal, within, kind):
+@pytest.mark.parametrize("y", [6.37e-3, 6.385e-3])
+def test_two_patches_carry_the_load_together_at_the_height_found(y, normal, within, kind):
+    """ANALYN's height gave forces that were up to half wrong."""
     pair = WheelRailPair(Pair(WHEEL, profile.rail_60e1(1 / 20, breakpoints="UIC 519")), normal=normal)
-    pose = Pose(y=6.385e-3)
+    pose = Pose(y=y)
     found = pair.solve(pose, VELOCITY, **{kind: 80e3})
     assert kind == "vertical" or len(found.contacts) > 1
     assert_same_from_nothing(pair, pose, kind, within, force=80e3)
@@ -68,21 +70,6 @@ def test_a_height_found_on_surfaces_carries_the_load(kind):
     pair = WheelRailPair(SurfacePair(WHEEL, RAIL), normal="analyn")
     for pose in POSES[:2]:
         assert_same_from_nothing(pair, pose, kind, 2e-7)
-
-
-def test_the_answer_under_a_load_does_not_depend_on_the_poses_before():
-    """At y = 5.01 mm and 2 mrad one z had 1923 MPa or 1878, by the way to it."""
-    pair = WheelRailPair(Pair(WHEEL, RAIL))
-    pose, answers = Pose(y=5.01e-3, yaw=2e-3), []
-    for before in (None, Pose(y=5.0e-3, yaw=2e-3), Pose(y=5.1e-3, yaw=1.9e-3), Pose(y=-3e-3)):
-        pair.forget()
-        if before is not None:
-            pair.solve(before, VELOCITY, vertical=80e3)
-        answers.append(pair.solve(pose, VELOCITY, vertical=80e3))
-    for other in answers[1:]:
-        assert other.max_pressure == pytest.approx(answers[0].max_pressure, rel=1e-4)
-        np.testing.assert_allclose(other.force, answers[0].force, atol=1e-5 * 80e3)
-        assert pytest.approx(80e3, rel=1e-5) == other.Q
 
 
 @pytest.mark.parametrize("kind", ["load", "vertical"])
@@ -119,9 +106,10 @@ def test_a_load_is_met_where_the_pressure_is_limited(kind):
 
 @pytest.mark.parametrize("kind", ["load", "vertical"])
 def test_an_answer_under_a_load_has_the_same_bits_whatever_was_solved_before(kind):
+    """At y = 5.01 mm and 2 mrad one z had 1923 MPa or 1878, by the way to it."""
     pair, pose = WheelRailPair(Pair(WHEEL, RAIL)), Pose(y=5.01e-3, yaw=2e-3)
     expected = pair.solve(pose, VELOCITY, **{kind: 80e3})
-    for before in (Pose(y=5.0e-3, yaw=2e-3), Pose(y=-3e-3), Pose(y=6.6e-3, yaw=-2e-3)):
+    for before in (Pose(y=5.0e-3, yaw=2e-3), Pose(y=5.1e-3, yaw=1.9e-3), Pose(y=-3e-3), Pose(y=6.6e-3, yaw=-2e-3)):
         pair.solve(before, VELOCITY, load=60e3)
         found = pair.solve(pose, VELOCITY, **{kind: 80e3})
         np.testing.assert_array_equal(found.force, expected.force)

@@ -8,7 +8,7 @@ import pytest
 import contact
 from contact.geometry import profile
 from contact.geometry.wheelset import Pair, Pose, Velocity
-from contact.pair import RollerRig, WheelRailPair
+from contact.pair import RollerRig
 from tests.command_line import call
 
 WHEEL, RAIL = profile.s1002(), profile.rail_60e1()
@@ -46,9 +46,6 @@ def test_a_large_roller_is_a_rail():
         a, b = one.creepage, other.creepage
         assert (a.longitudinal, a.lateral) == pytest.approx((b.longitudinal, b.lateral), abs=1e-4)
         assert a.spin - b.spin == pytest.approx(math.sin(one.angle) / 10.0, rel=0.05)
-    pair = WheelRailPair(PAIR).solve(pose, velocity, vertical=6e4)
-    found = RollerRig(PAIR, 10.0).solve(pose, velocity, vertical=6e4)
-    np.testing.assert_allclose(found.force, pair.force, atol=0.02 * 6e4)
 
 
 def test_a_smaller_roller_has_a_shorter_patch_and_more_pressure():
