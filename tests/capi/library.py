@@ -17,8 +17,7 @@ def _struct(*members):
 
 _INTEGERS = ("size", "normal", "tangential", "n_strips", "n_elements", "n_samples", "max_iterations", "conformal")
 OPTIONS = _struct(
-    *((n, np.int64) for n in _INTEGERS),
-    *((n, float) for n in ("shear_modulus", "poisson_ratio", "pressure_limit")),
+    *((n, np.int64) for n in _INTEGERS), *((n, float) for n in ("shear_modulus", "poisson_ratio", "pressure_limit"))
 )
 SEPARATION = _struct(*((n, np.int64) for n in ("n", "y", "g", "A", "x_c", "tilt")))
 SURFACE = _struct(*((n, np.int64) for n in ("n", "numbers")))

@@ -9,13 +9,11 @@ from contact.geometry import profile
 from contact.geometry.surfaces import Polygon, WheelSurface, compiled
 from contact.geometry.wheelset import Pair as Profiles
 from contact.geometry.wheelset import Pose, Velocity
-from contact.kernels.enumerations import Height
 from contact.pair import WheelRailPair
 from tests.capi.library import Pair
 
 WHEEL, RAIL, R = profile.s1002(), profile.rail_60e1(), 0.46
 FORCE, MOMENT = ("Fx", "Fy", "Fz"), ("Mx", "My", "Mz")
-TURNED = np.array([-1.0, -1.0, 1.0])  # a vector after a turn of 180° about z
 
 
 def solved(pair, V, y, yaw, slip, rate):
@@ -24,21 +22,6 @@ def solved(pair, V, y, yaw, slip, rate):
     pair.solve()
     total = pair.answer["total"][0]
     return np.array([total[n] for n in FORCE]), np.array([total[n] for n in MOMENT]), total
-
-
-@pytest.mark.parametrize("height", [Height.LOAD, Height.VERTICAL])
-@pytest.mark.parametrize("V", [20.0, 5e-4])
-def test_backwards_is_the_other_wheel_forwards_turned_about_z(library, V, height):
-    right, left = (Pair(library, WHEEL, RAIL, side=side) for side in (1, -1))
-    for pair in (right, left):
-        pair.input["height"] = height
-    for y, yaw, slip in ((2e-3, 2e-3, 1.002), (6.5e-3, -8e-3, 1.0), (-1e-3, 0.0, 0.998)):
-        force, moment, back = solved(right, -V, y, yaw, slip, 1e-3 * V)
-        turned_force, turned_moment, ahead = solved(left, V, -y, yaw, slip, -1e-3 * V)
-        assert np.abs(force).max() > 6e4
-        assert force == pytest.approx(TURNED * turned_force, abs=1e-9 * 80e3)
-        assert moment == pytest.approx(TURNED * turned_moment, abs=1e-9 * 80e3)
-        assert back["power"] == pytest.approx(ahead["power"], rel=1e-9)
 
 
 @pytest.mark.parametrize("reference", [1e-3, 5.0])
@@ -59,18 +42,6 @@ def test_the_default_input_rolls_back_without_slip(library):
     assert library.call("wr_pair_doubts", pair.options, pair.input) == 0
     pair.solve()
     assert abs(pair.answer["total"]["Fx"][0]) < 0.05 * 0.3 * 80e3
-
-
-def test_a_spin_of_the_wrong_sign_is_doubted_in_both_directions_and_none_at_rest(library):
-    pair = Pair(library, WHEEL, RAIL)
-    for V, spin, doubted in (
-        (20.0, 20.0 / R, True),
-        (-20.0, -20.0 / R, True),
-        (-1e-12, 1e-3, False),
-        (1e-12, 0.0, False),
-    ):
-        pair.input["motion"]["vx"], pair.input["motion"]["spin"] = V, spin
-        assert (library.call("wr_pair_doubts", pair.options, pair.input) != 0) == doubted
 
 
 def test_on_surfaces_rolling_back_is_refused_by_name(library):

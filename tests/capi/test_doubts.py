@@ -112,27 +112,6 @@ def test_a_pair_is_doubted_as_in_python(library, seed):
     assert len(fired) > 5
 
 
-@pytest.mark.parametrize(
-    ("changed", "said"),
-    [
-        ({}, []),
-        ({"vx": 40.0}, ["slip"]),
-        ({"spin": 20.0 / 0.46}, ["slip"]),
-        ({"yaw": 0.1}, ["pose.yaw"]),
-        ({"y": 5.0}, ["pose.y"]),
-        ({"mu": 35.0}, ["friction"]),
-        ({"amount": 80.0}, ["wheel load"]),
-    ],
-)
-def test_usual_mistakes_are_doubted(library, changed, said):
-    pair = Pair(library, profile.s1002(), profile.rail_60e1())
-    for name, value in changed.items():
-        of = next(of for of in (pair.input, pair.input["motion"], pair.input["surface"]) if name in of.dtype.names)
-        of[name] = value
-    found = texts(library, library.call("wr_pair_doubts", pair.options, pair.input))
-    assert [text.split(": ")[0] for text in found] == said
-
-
 @pytest.mark.parametrize("normal", ["strip_halfspace", "analyn"])
 def test_an_answer_is_doubted_as_in_python(library, normal):
     wheel, rail, fired = profile.s1002(), profile.rail_60e1(), Counter()

@@ -39,21 +39,8 @@ def forces(text):
 @pytest.fixture(scope="module")
 def in_c(built, tmp_path_factory):
     folder = tmp_path_factory.mktemp("c")
-    source = EXAMPLES / "c/wheel_on_rail.c"
-    run(
-        "gcc",
-        "-Wall",
-        "-Wextra",
-        source,
-        INCLUDE,
-        f"-L{built}",
-        "-lwheelrail",
-        "-lm",
-        "-o",
-        "main",
-        cwd=folder,
-        library=built,
-    )
+    flags = ("-Wall", "-Wextra", INCLUDE, f"-L{built}", "-lwheelrail", "-lm", "-o", "main")
+    run("gcc", EXAMPLES / "c/wheel_on_rail.c", *flags, cwd=folder, library=built)
     return forces(run("./main", cwd=folder, library=built))
 
 

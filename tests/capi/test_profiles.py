@@ -31,10 +31,6 @@ def init(library, wheel, rail) -> tuple[int, str, str]:
 S1002, RAIL = ((p.y, p.z) for p in (profile.s1002(), profile.rail_60e1()))
 
 
-def test_profiles_as_the_header_says_are_taken(library):
-    assert init(library, S1002, RAIL)[0] == 0
-
-
 @pytest.mark.parametrize(
     ("wheel", "rail", "argument", "words"),
     [
