@@ -14,7 +14,6 @@ from contact.geometry.wheelset import Pair, Pose
 CONE, ARC = profile.cone(0.05), profile.rail_arc(0.3)
 ON_ARC = {"gauge": 1.5, "gauge_point": 1e-3}
 GAUGE = 1.4351645  # places the origin of rail A 750 mm from the centre of the track, as the standard does
-AMPLITUDES = np.arange(1, 8) * 1e-3
 
 
 def tabulated(edition):
@@ -93,11 +92,6 @@ def test_cones_the_wrong_way_round_have_negative_conicity_and_no_wavelength():
     assert np.isinf(found.wavelength()).all()
 
 
-def test_cylinders_have_no_conicity():
-    found = conicity(profile.cone(0.0), ARC, [1e-3, 4e-3], **ON_ARC)
-    np.testing.assert_array_equal(found.conicity, 0.0)
-
-
 def test_cone_touches_an_arc_where_their_tangents_agree():
     y = np.array([-4e-3, 0.0, 3e-3])
     found = contact_points(CONE, ARC, y, **ON_ARC)
@@ -119,14 +113,6 @@ def test_rolling_wheelset_touches_with_both_wheels_at_one_height():
         assert heights[0] == pytest.approx(heights[1], abs=1e-11)
     assert found.roll[1] == pytest.approx(0.0, abs=1e-13)
     assert found.roll[3] < 0.0, "a wheel that climbs at its flange lifts its side"
-
-
-def test_contact_points_are_mirror_images():
-    y = np.linspace(0.0, 8e-3, 9)
-    one, other = (contact_points(profile.s1002(), profile.rail_60e1(), sign * y) for sign in (1.0, -1.0))
-    np.testing.assert_array_equal(one.right.angle, other.left.angle)
-    np.testing.assert_array_equal(one.radius_difference, -other.radius_difference)
-    assert (np.diff(one.radius_difference) >= 0.0).all()
 
 
 def test_known_points_must_lie_at_equal_steps_and_far_enough():

@@ -18,7 +18,7 @@ CODES = (
     "{y} #N/A", "32767 32767", "1e30 1e30", "{y} 0", "- -", "1.#QNAN 1.#QNAN",
 )  # fmt: skip
 SEPARATORS = [(separator, ".") for separator in (" ", "\t", ";", ",", ", ", "|")]
-SEPARATORS += [(separator, ",") for separator in (" ", "\t", ";")]
+SEPARATORS += [(separator, ",") for separator in (" ", "\t", ";", "; ", ", ")]
 HEADS = (
     "", "y{0}z\n", "profile of a wheel, 2024-05-01 12:30:00\ny [mm]{0}z [mm]\n", "# y{0}z\n", "No. 17\n\n", "1.5.2024\n",
 )  # fmt: skip

@@ -200,14 +200,6 @@ def test_shapes_that_could_be_either_are_taken_as_given(tmp_path):
         assert profile.read(path, kind=drawn.kind, unit="m", side="right").kind == drawn.kind
 
 
-@pytest.mark.parametrize("separator", [" ", ";", "; ", "\t", ", "])
-def test_decimal_commas_are_recognised(tmp_path, separator):
-    path = tmp_path / "wheel.txt"
-    rows = table(1e3 * WHEEL.y, 1e3 * WHEEL.z, "{:.7f}|{:.7f}").replace(".", ",").replace("|", separator)
-    path.write_text(f"y;z\n{rows}\n")
-    same(profile.read(path, **COLUMNS), WHEEL)
-
-
 def test_commas_that_may_be_decimal_or_separate_columns_are_named(tmp_path):
     path = tmp_path / "wheel.txt"
     path.write_text(table(1e3 * WHEEL.y, 1e3 * WHEEL.z, "{:.3f}|{:.3f}").replace(".", ",").replace("|", ","))

@@ -54,17 +54,6 @@ def test_point_and_radius_follow_from_the_slope_of_the_trace_line(roll, yaw):
         assert np.linalg.norm(np.cross(point, axle)) == pytest.approx(r, abs=1e-12)
 
 
-def test_wangs_formula_for_the_advance_of_the_contact_point():
-    # theory.md 9.4: x_c = l_x (d + R tan delta); on the tread tan delta is the slope of the profile
-    yaw = 0.02
-    axle = search.axle(0.0, yaw)
-    line = trace_line(0.0, 0.0, yaw)
-    k = np.argmin(np.abs(line[0] - 0.750))
-    x, d, r = search.on_wheel(line[2, k], line[0, k], line[1, k] + RADIUS, *axle)
-    slope = np.interp(d - TAPE, WHEEL[0], WHEEL[2])
-    assert x == pytest.approx(axle[0] * (d + r * slope), abs=1e-8)
-
-
 def lobes_of(y, gap, opening, z):
     line = np.zeros((N_LINE_ROWS, y.size))
     line[0], line[Curve.GAP], line[Curve.OPENING] = y, gap, opening

@@ -10,9 +10,8 @@ from contact.geometry import profile
 from contact.geometry.surfaces import Flat, Polygon, RailSurface, SurfacePair, Wave, WheelSurface
 from contact.geometry.surfaces.frame import Frame
 from contact.geometry.surfaces.spline import approximated, slopes
-from contact.geometry.wheelset import Irregularity, Pair, Pose, Velocity
+from contact.geometry.wheelset import Pose
 from contact.kernels.geometry.section import AWAY
-from examples.crossing.crossing import crossing
 
 R0 = 0.460
 WHEEL, RAIL = profile.s1002(), profile.rail_60e1()
@@ -172,8 +171,7 @@ def test_the_height_of_a_cone_under_yaw_and_roll_is_exact(angle, pitch):
 
 
 @pytest.mark.parametrize(
-    "deviation",
-    [Polygon(12, 2e-4, 0.3), Wave(0.05, 1e-4, 0.01), Flat(0.06), Flat(0.05, shape="chord", angle=3.0)],
+    "deviation", [Polygon(12, 2e-4, 0.3), Wave(0.05, 1e-4, 0.01), Flat(0.06), Flat(0.05, shape="chord", angle=3.0)]
 )
 def test_the_slope_of_a_deviation_is_its_derivative(deviation):
     u = np.linspace(-4.0, 4.0, 1001) + 1e-4
@@ -192,42 +190,6 @@ def test_a_chord_has_its_length_and_is_plane():
 
 
 # -- search -----------------------------------------------------------------------------------------------------------
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize(
-    "pose", [Pose(), Pose(y=3e-3, yaw=4e-3), Pose(y=5.5e-3, roll=2e-3, yaw=-6e-3), Pose(y=-4e-3, yaw=0.02)]
-)
-def test_constant_profiles_give_the_patches_of_the_pair(pose):
-    velocity = Velocity(20.0, y=0.05, yaw=0.1, spin=-43.6)
-    old, new = Pair(WHEEL, RAIL), SurfacePair(WHEEL, RAIL)
-    assert new.touch(pose) == pytest.approx(old.touch(pose), abs=3e-8)
-    wanted = old.contacts(pose, velocity, penetration=8e-5)
-    found = new.contacts(Pose(pose.y, old.z, pose.roll, pose.yaw), velocity)
-    assert len(found) == len(wanted)
-    for a, b in zip(found, wanted, strict=True):
-        assert a.angle == pytest.approx(b.angle, abs=5e-4)
-        assert a.position == pytest.approx(b.position, abs=1.5e-4)
-        assert a.approach == pytest.approx(b.approach, abs=2e-7)
-        assert a.rolling_radius == pytest.approx(b.rolling_radius, abs=2e-5)
-        for name in ("longitudinal", "lateral"):
-            assert getattr(a.creepage, name) == pytest.approx(getattr(b.creepage, name), abs=3e-5)
-        assert a.creepage.spin == pytest.approx(b.creepage.spin, abs=2e-3)
-
-
-def test_left_is_the_mirror_image_of_right():
-    pose, mirrored = Pose(y=4e-3, roll=1e-3, yaw=5e-3), Pose(y=-4e-3, roll=-1e-3, yaw=-5e-3)
-    right, left = (SurfacePair(WHEEL, RAIL, side=side) for side in ("right", "left"))
-    velocity, other = Velocity(20.0, 0.1, 0.05, 0.02, 0.03), Velocity(20.0, -0.1, 0.05, -0.02, -0.03)
-    irregular, across = Irregularity(1e-4, -2e-4, 1e-3, 0.01), Irregularity(-1e-4, -2e-4, -1e-3, -0.01)
-    a = right.contacts(pose, velocity, penetration=1e-4, irregularity=irregular)
-    b = left.contacts(mirrored, other, penetration=1e-4, irregularity=across)
-    assert right.z == left.z
-    for p, q in zip(a, b, strict=True):
-        assert q.position == (p.position[0], -p.position[1], p.position[2])
-        assert (q.creepage.lateral, q.creepage.spin) == (-p.creepage.lateral, -p.creepage.spin)
-        assert np.array_equal(q.gap.h, p.gap.h[::-1])
-        assert q.angle == -p.angle
 
 
 @pytest.mark.parametrize("rate", [0.1, -0.1, 0.02])
@@ -287,16 +249,6 @@ def test_the_narrow_overlap_at_the_end_of_a_chord_is_found(depth, turned):
     assert patch.position[0] == pytest.approx(middle, abs=0.1 * np.ptp(x[over > 0.0]) + 1e-4)
 
 
-def test_patches_in_transition_have_shares_that_add_up():
-    """Wing and nose of a crossing, 57 mm apart, with the limit of distance moved there."""
-    pair = SurfacePair(WHEEL, crossing(), combine_distance=0.045, rows=20, columns=20, **UNDER)
-    wing, both, nose = pair.contacts(Pose(), station=0.158, penetration=1.5e-4)
-    assert wing.share == nose.share
-    assert 0.0 < wing.share < 1.0
-    assert wing.share + both.share == pytest.approx(1.0, abs=1e-12)
-    assert wing.position[1] > both.position[1] > nose.position[1]
-
-
 def test_a_polygon_touches_where_the_rigid_wheel_is_lowest():
     polygon = Polygon(12, 2e-4)
     pair = SurfacePair(WheelSurface.constant(CONE, polygon), ARC, **UNDER)
@@ -326,24 +278,7 @@ def test_a_closed_wheel_continues_from_its_last_slice_to_the_first():
     assert opened.sheet.period is None
 
 
-@pytest.mark.slow
-def test_the_height_is_continuous_along_a_crossing():
-    """A nose rises out of the ground beside a rail that leaves: the touch moves over without a step."""
-    s, y = np.linspace(-0.2, 0.2, 21), np.linspace(-0.03, 0.03, 121)
-    slices = []
-    for at in s:
-        wing = (y - 0.01) ** 2 / 0.3 + 1e-3 + 0.01 * at
-        nose = (y + 0.012) ** 2 / 0.1 + 1e-3 - 0.01 * at
-        slices.append(np.stack((y, -0.5e-3 * np.log(np.exp(-wing / 0.5e-3) + np.exp(-nose / 0.5e-3))), axis=1))
-    pair = SurfacePair(WHEEL, RailSurface(s, slices), **UNDER)
-    z = [pair.touch(Pose(), station=float(at)) for at in np.linspace(-0.08, -0.04, 21)]
-    assert np.abs(np.diff(z)).max() < 1.001 * 0.01 * 2e-3  # no step: both parts rise or fall by 1 : 100
-    assert z[0] < max(z) > z[-1]
-
-
 # -- errors -----------------------------------------------------------------------------------------------------------
-
-POINTS = np.stack((ARC.y, ARC.z), axis=1)
 
 
 def test_a_wheel_above_the_rail_has_no_patch():

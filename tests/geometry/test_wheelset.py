@@ -66,16 +66,6 @@ def test_turning_the_wheelset_the_other_way_mirrors_the_patch_in_x(right):
     np.testing.assert_allclose(b.separation.x_c, -a.separation.x_c, atol=1e-14)
 
 
-def test_a_displaced_rail_is_a_wheelset_displaced_the_other_way(right):
-    (a,) = right.contacts(Pose(y=2e-3, z=0.2e-3), Velocity(20.0, 0.1, 0.03))
-    (b,) = right.contacts(Pose(), Velocity(20.0), irregularity=Irregularity(-2e-3, -0.2e-3, 0.0, -0.1, -0.03))
-    assert b.angle == pytest.approx(a.angle, abs=1e-12)
-    assert b.position[1] == pytest.approx(a.position[1] - 2e-3, abs=1e-12)
-    assert b.on_rail == pytest.approx(a.on_rail, abs=1e-12)
-    for name in ("longitudinal", "lateral", "spin"):
-        assert getattr(b.creepage, name) == pytest.approx(getattr(a.creepage, name), abs=1e-12)
-
-
 def test_rolling_wheelset_and_rail_together_about_the_wheelset_turns_the_frame_alone():
     pair = Pair(CONE, ARC, gauge_point=1e-3)
     roll = 0.01

@@ -89,11 +89,6 @@ def test_a_rail_wears_by_the_axle_passes_of_its_traffic(life):
     assert life.tonnes("right") == pytest.approx(4e5)
 
 
-def test_worn_cross_sections_survive_smoothing(life):
-    for part in life.parts:
-        assert part["area_smoothed"] == pytest.approx(part["area"], rel=5e-3)
-
-
 def test_the_balance_of_mass_is_that_of_both_wheels(life):
     masses = [wheel["mass"] for wheel in life.wheels.values()]
     assert life["mass"] == pytest.approx(np.mean(masses, axis=0), rel=1e-12)

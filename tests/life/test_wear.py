@@ -14,7 +14,6 @@ from contact_models.life import commands, declared_set, wear_report
 from contact_models.life.declared_set import Steps
 from contact_models.life.flange import Flange
 from contact_models.life.part import DENSITY, Wheel, displacement
-from contact_models.life.scale import Workers
 from contact_models.life.wear import Life
 from tests.life.short_set import CURVE, SET, completed, written
 
@@ -111,17 +110,6 @@ def test_worn_profile_stays_one_curve(life):
     before = profile.Profile("wheel", life.plan.wheel.y, life.plan.wheel.z)
     off = np.abs((angle - fresh.angle) - (life.plan.wheel.angle - before.angle))
     assert off[inner].max() < 1e-4
-
-
-def test_resumed_wear_equals_the_uninterrupted_one_bit_for_bit(life):
-    first = Life(life.plan)
-    with Workers() as pool:
-        first.step(pool, go_on=True)
-    second = Life(life.plan)
-    second.restore(first.save())
-    assert second.mileage == life["mileage"][1]
-    ours, theirs = completed(second, go_on=True).save(), life.save()
-    assert all(np.array_equal(ours[name], theirs[name]) for name in theirs)
 
 
 def test_limit_ends_the_wear(plan):

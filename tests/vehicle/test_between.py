@@ -6,11 +6,8 @@ import numpy as np
 import pytest
 
 from contact.errors import ContactError
-from contact.geometry import profile
 from contact_models.runs.scenario import Methods
 from contact_models.vehicle import linear
-from contact_models.vehicle.course import lay
-from contact_models.vehicle.declared import read
 from contact_models.vehicle.kernels.layout import Axis, Book
 from contact_models.vehicle.kernels.wheels import follow_wheel
 from contact_models.vehicle.simulation import ContactOptions, Simulation
@@ -85,18 +82,6 @@ def test_the_balance_on_irregular_straight_track_is_that_of_a_solution_at_every_
     assert paced.wheel_arrays.last.solutions.mean() < 0.6 * 4500
 
 
-def test_left_curve_is_the_mirror_image_of_the_right_one():
-    signs = np.array([1.0, -1.0, 1.0, -1.0, 1.0, -1.0])
-    right, left = (
-        simulation("manchester", curve(direction), speed=15.0, length=40.0, options=PACED)
-        for direction in ("right", "left")
-    )
-    for sim in (right, left):
-        sim.advance(STEP, 5000)
-    np.testing.assert_allclose(right.state.q, signs * left.state.q, atol=1e-11)
-    np.testing.assert_allclose(right.wheels["vertical"][0::2], left.wheels["vertical"][1::2], rtol=1e-7)
-
-
 def test_impacts_of_a_hunting_wheelset_are_solved_and_close():
     track = Track(alignment=Irregularities(spectrum="ERRI B176 low", scale=3.0))
     exact, paced = (
@@ -106,7 +91,7 @@ def test_impacts_of_a_hunting_wheelset_are_solved_and_close():
         sim.advance(1e-4, 20000)
     assert paced.state.books[Book.IMPACTS] == pytest.approx(exact.state.books[Book.IMPACTS], abs=2)
     assert paced.state.books[Book.IMPACTS] > 5
-    assert abs(residual(paced)) < 5e-3
+    assert max(abs(residual(paced)), abs(residual(exact))) < 5e-3
     assert (paced.wheel_arrays.last.solutions > 10000).all()
 
 
@@ -118,43 +103,6 @@ def test_a_wheel_in_the_air_is_solved_at_every_step():
     sim.advance(1e-4, 50)
     assert not sim.wheels["normal"].any()
     assert (sim.wheel_arrays.last.solutions - before == 50).all()
-
-
-def test_no_bit_depends_on_the_number_of_threads():
-    track = curve(alignment=Irregularities(spectrum="ERRI B176 low"))
-    rows = lay(track, 60.0, lambda s: 15.0, (1,), 1.0)
-    runs = [
-        Simulation(read("manchester"), rows, profile.s1002(), profile.rail_60e1(), 0.3, PACED, threads=n)
-        for n in (1, 3)
-    ]
-    for run in runs:
-        for steps in (1, 399, 600):
-            run.advance(STEP, steps)
-    for name, array in runs[0].kept.items():
-        np.testing.assert_array_equal(array, runs[1].kept[name], err_msg=name)
-    assert (runs[0].wheel_arrays.last.solutions < 600).all()
-
-
-def test_a_restored_run_goes_on_between_two_solutions():
-    first = simulation("wheelset", Track(alignment=Irregularities(spectrum="ERRI B176 low")), options=PACED)
-    first.advance(STEP, 498)
-    while not (first.wheel_arrays.last.ages == 2).all():
-        first.advance(STEP)
-    saved = {name: array.copy() for name, array in first.kept.items()}
-    ends = []
-    for _ in range(2):
-        for name, array in first.kept.items():
-            array[:] = saved[name]
-        first.advance(STEP, 50)
-        ends.append({name: array.copy() for name, array in first.kept.items()})
-    for name, array in ends[0].items():
-        np.testing.assert_array_equal(array, ends[1][name], err_msg=name)
-    fresh = simulation("wheelset", Track(alignment=Irregularities(spectrum="ERRI B176 low")), options=PACED)
-    for name, array in fresh.kept.items():
-        array[:] = saved[name]
-    fresh.advance(STEP, 50)
-    for name, array in ends[0].items():
-        np.testing.assert_array_equal(array, fresh.kept[name], err_msg=name)
 
 
 def test_linear_analysis_solves_every_displaced_state():

@@ -6,13 +6,7 @@ import pytest
 from contact.errors import ContactError
 from contact_models.vehicle.coupling import ANSWER, QUESTION, OpenVehicle
 from contact_models.vehicle.simulation import ContactOptions
-from examples.coupled_vehicle.coupled import (
-    coupled,
-    difference,
-    in_one_kernel,
-    python_contacts,
-    vehicle,
-)
+from examples.coupled_vehicle.coupled import coupled, difference, in_one_kernel, python_contacts, vehicle
 
 OPTIONS = ContactOptions(normal="analyn", tangential="fastrip", n_strips=20, n_elements=12, pace=1)
 STEP, SAMPLES = 2e-4, 30

@@ -11,7 +11,7 @@ from contact_models.vehicle.declared import Damper, Rail, read
 from contact_models.vehicle.kernels.layout import Axis, Book, Sum
 from contact_models.vehicle.spectra import Irregularities
 from contact_models.vehicle.track import Curve, Friction, Track
-from tests.vehicle.parts import simulation
+from tests.vehicle.parts import FAST, PACED, simulation
 
 ROUGH = {
     channel: Irregularities(spectrum="ERRI B176 low") for channel in ("alignment", "vertical", "cross_level", "gauge")
@@ -47,19 +47,12 @@ def test_energy_closes_over_transitions_and_a_curve(direction):
     assert abs(residual(sim)) < 5e-3
 
 
-def test_energy_closes_with_impacts_of_a_hunting_wheelset():
-    sim = simulation(
-        "wheelset", Track(alignment=Irregularities(spectrum="ERRI B176 low", scale=3.0)), speed=50.0, length=150.0
-    )
-    sim.advance(1e-4, 30000)
-    books = sim.state.books
-    assert books[Book.IMPACTS] > 5
-    assert abs(residual(sim)) < 5e-3
-
-
-def test_left_curve_is_the_mirror_image_of_the_right_one():
+@pytest.mark.parametrize("options", [FAST, PACED], ids=["every step", "paced"])
+def test_left_curve_is_the_mirror_image_of_the_right_one(options):
     signs = np.array([1.0, -1.0, 1.0, -1.0, 1.0, -1.0])
-    sims = [simulation("manchester", curve(direction), speed=15.0, length=40.0) for direction in ("right", "left")]
+    sims = [
+        simulation("manchester", curve(side), speed=15.0, length=40.0, options=options) for side in ("right", "left")
+    ]
     for sim in sims:
         sim.advance(4e-4, 5000)
     right, left = (sim.state for sim in sims)

@@ -9,9 +9,6 @@ import pytest
 from contact.errors import ContactError
 from contact.friction import Friction
 from contact.geometry import profile
-from contact_models.life import declared_set
-from contact_models.life.scale import Workers
-from contact_models.life.wear import Life
 from contact_models.runs import checkpoint, report, result
 from contact_models.runs.run import VehicleRun
 from contact_models.runs.scenario import Methods, Recording
@@ -29,23 +26,6 @@ from tests.vehicle.parts import completed, scenario
 @pytest.fixture(scope="module")
 def whole() -> VehicleRun:
     return completed(VehicleRun(scenario()))
-
-
-def test_resumed_run_equals_the_uninterrupted_one_bit_for_bit(whole, tmp_path):
-    first = VehicleRun(scenario())
-    for _ in range(7):
-        first.advance()
-    path = tmp_path / "checkpoint.npz"
-    checkpoint.write(path, first.scenario.fingerprint, first.save())
-    second = VehicleRun(scenario())
-    second.restore(checkpoint.read(path, second.scenario.fingerprint))
-    completed(second)
-    assert all(
-        np.array_equal(mine, theirs) for mine, theirs in zip(second.save().values(), whole.save().values(), strict=True)
-    )
-    for run, name in ((second, "a.nc"), (whole, "b.nc")):
-        result.write(result.dataset(run), tmp_path / name)
-    assert (tmp_path / "a.nc").read_bytes() == (tmp_path / "b.nc").read_bytes()
 
 
 def test_torque_becomes_longitudinal_force_and_wear():
@@ -208,26 +188,6 @@ def test_guiding_force_of_both_wheels_is_below_prudhommes_limit():
     assert (found.quotient, found.guiding) == pytest.approx((0.4, 1.5e4))
     assert found.prudhomme == pytest.approx(1e4 + 1.1e5 / 3.0)
     assert found.unloading == pytest.approx(1.0 - 5.0 / 5.5)
-
-
-def test_a_wear_study_takes_vehicles(tmp_path):
-    """All wheels wear alike, by their mean."""
-    (tmp_path / "straight.toml").write_text(
-        'name = "s"\nlength = 6.0\nspeed = 20.0\nvehicle = "wheelset"\n'
-        '[methods]\nnormal = "analyn"\ntangential = "fastrip"\nstrips = 20\nelements = 12\n'
-        '[track.alignment]\nspectrum = "ERRI B176 low"\n[recording]\nsettling = 2.0\n',
-        encoding="utf-8",
-    )
-    (tmp_path / "set.toml").write_text(
-        'name = "set"\nmileage = 1e6\namplitudes = [3e-3]\n[[scenarios]]\nfile = "straight.toml"\nweight = 1.0\n',
-        encoding="utf-8",
-    )
-    life = Life(declared_set.read(tmp_path / "set.toml"))
-    with Workers() as pool:
-        life.step(pool)
-    assert life.mileage == pytest.approx(1e6)
-    assert life["mass"][-1] > 0.0
-    assert abs(life["residual"][-1]) < 0.02
 
 
 def test_friction_of_the_gauge_face_acts_on_the_part_of_the_profile_that_it_names():

@@ -206,16 +206,21 @@ def test_fingerprint_changes_with_the_slices(short):
     assert read_scenario(short).fingerprint != before
 
 
-def test_wear_and_fmus_refuse_slices(short, capsys):
+FLAT = '[[wheels.flat]]\naxle = "wheelset"\nside = "right"\nlength = 0.05\nangle = 1.0\n'
+
+
+@pytest.mark.parametrize(("of", "table"), [("rails", SLICES), ("wheels", FLAT)])
+def test_wear_and_fmus_refuse_slices_and_flats(short, capsys, of, table):
+    short.write_text(SCENARIO + table)
     path = short.parent / "set.toml"
     path.write_text('name = "s"\nmileage = 1e6\n[[scenarios]]\nfile = "crossing.toml"\nweight = 1.0\n')
-    with pytest.raises(ContactError, match=r"set.toml: crossing.toml.rails: a study of wear takes no flats.*slices"):
+    with pytest.raises(ContactError, match=rf"set.toml: crossing.toml.{of}: a study of wear takes no flats.*slices"):
         declared_set.read(path)
-    with pytest.raises(ContactError, match=r"crossing.toml.rails: the FMUs of a vehicle take no .*slices"):
+    with pytest.raises(ContactError, match=rf"crossing.toml.{of}: the FMUs of a vehicle take no .*slices"):
         catalogue.vehicles(short)
     with pytest.raises(typer.Exit):
         track.replace(short.parent / "none.fmu", file=short)
-    assert "crossing.toml.rails: the FMUs of a vehicle take no flats, polygons and slices" in capsys.readouterr().err
+    assert f"crossing.toml.{of}: the FMUs of a vehicle take no flats, polygons and slices" in capsys.readouterr().err
 
 
 def measured_wheel(folder, lift=0.0):

@@ -11,8 +11,6 @@ from contact.errors import ContactError
 from contact.geometry import profile
 from contact.geometry.surfaces import Flat, WheelSurface
 from contact.instance.workspace import closed_ledger
-from contact_fmu import catalogue
-from contact_models.life import declared_set
 from contact_models.runs import report, result
 from contact_models.runs.run import VehicleRun
 from contact_models.runs.scenario import read as read_scenario
@@ -140,23 +138,6 @@ def test_wrong_wheels_are_refused(table, message, tmp_path):
     path.write_text(SCENARIO + table)
     with pytest.raises(ContactError, match=message):
         read_scenario(path)
-
-
-def test_a_set_of_wear_refuses_uneven_wheels(tmp_path):
-    (tmp_path / "flat.toml").write_text(SCENARIO + FLAT)
-    path = tmp_path / "set.toml"
-    path.write_text('name = "s"\nmileage = 1e6\n[[scenarios]]\nfile = "flat.toml"\nweight = 1.0\n')
-    with pytest.raises(ContactError, match=r"set.toml: flat.toml.wheels: a study of wear takes no flats"):
-        declared_set.read(path)
-
-
-def test_a_vehicle_fmu_refuses_uneven_wheels(tmp_path):
-    path = tmp_path / "flat.toml"
-    path.write_text(SCENARIO + FLAT)
-    with pytest.raises(
-        ContactError, match=r"flat.toml.wheels: the FMUs of a vehicle take no flats, polygons and slices"
-    ):
-        catalogue.vehicles(path)
 
 
 def test_vehicles_refuse_ledgers_of_some_wheels_only():
