@@ -23,7 +23,6 @@ from tests.command_line import call  # noqa: E402
 @pytest.mark.parametrize(
     ("words", "message"),
     [
-        (("solve", "--load", "-1"), "load = -1 is outside the allowed range [0, inf["),
         (("solve", "--friction", "nan"), "friction = nan"),
         (("solve", "--curvatures", "0", "1"), "A = 0 is outside the allowed range ]0, inf["),
         (
@@ -36,22 +35,17 @@ from tests.command_line import call  # noqa: E402
         ),
         (("solve", "--normal", "magic"), "normal = 'magic' is not a registered method"),
         (("solve", "--wheel", "round"), "wheel = 'round' is no profile of the standards; they are S1002, 1/40"),
-        (("solve", "--wheel", "S1003"), "wheel = 'S1003' is no profile of the standards, did you mean 'S1002'"),
-        (("solve", "--wheel", "missing.prw"), "missing.prw' is missing: there is no such file"),
         (("solve", "--rail", "rail A", "--inclination", "0.05"), "EN 15302 rail A has no inclination"),
         (("solve", "--rail", "some.prr", "--inclination", "0.05"), "some.prr' is missing"),
         (("solve", "--profile-rotation", "2", "0"), "rotation = 2 is outside the allowed range [-0.5, 0.5]"),
         (("conicity", "--amplitude", "3"), "amplitudes[0] = 3 is outside the allowed range [0.0001, 0.02]"),
-        (("conicity", "--left-radius", "0.4"), "has the same sign"),
         (("geometry", "--gauge", "1435"), "--gauge 1435 is outside"),
         (("solve", "--load", "1", "--penetration", "1e-5"), "exclude each other"),
         (("solve", "--y", "1.0"), "--y 1"),
-        (("solve", "--penetration", "-1e-5"), "penetration = -1e-05"),
         (("solve", "--curvatures", "1", "1", "--out", "nowhere/at/all.png"), "all.png cannot be written"),
         (("solve", "--curvatures", "1", "1", "--out", "picture.nonsense"), "picture.nonsense cannot be written"),
         (("curve", "--out", "nowhere/at/all.csv"), "all.csv cannot be written"),
         (("curve", "--max", "inf"), "max = inf is not finite"),
-        (("curve", "--tangential", "magic"), "tangential = 'magic'"),
         (("patch", "--yaw", "3"), "--yaw 3"),
     ],
 )

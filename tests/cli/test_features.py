@@ -61,25 +61,24 @@ def test_transient_gives_the_numbers_of_the_python_api(tmp_path):
     assert "needs 1e+07 steps" in call("transient", *words, "--distance", 1e4, code=2).stderr
 
 
-def test_the_bodies_of_the_command_line_are_those_of_the_python_api():
-    bodies = (60e9, 0.31, 210e9, 0.28)
-    words = ("--curvatures", 1.1, 0.8, "--bodies", *bodies, "--normal", "halfspace", "--tangential", "halfspace")
-    answer = json.loads(call("solve", *words, "--creepage", 0, 0, 0, "--json").stdout)["patches"][0]
-    s = contact.solve(
-        contact.Separation.hertzian(1.1, 0.8), contact.Creepage(), load=80e3, normal="halfspace",
-        tangential="halfspace", material=contact.Material.from_pair(*bodies),
-    )  # fmt: skip
-    assert answer["Fx"] == s.Fx != 0.0
-    assert "nu1 = 0.7 is outside" in call("solve", *words[:3], "--bodies", 1e9, 0.7, 1e9, 0.3, code=2).stderr
+BODIES, LAYER = (60e9, 0.31, 210e9, 0.28), (2e-13, 150e6, 1e11)
 
 
-def test_the_layer_of_the_command_line_is_that_of_the_python_api():
-    words = ("--curvatures", 1.1, 0.8, "--creepage", 2e-3, 0, 0, "--normal", "halfspace", "--tangential", "halfspace")
-    layer = (2e-13, 150e6, 1e11)
-    answer = json.loads(call("solve", *words, "--layer", *layer, "--json").stdout)["patches"][0]
-    s = contact.solve(
-        contact.Separation.hertzian(1.1, 0.8), contact.Creepage(2e-3), load=80e3, normal="halfspace",
-        tangential="halfspace", layer=contact.ThirdBody(*layer),
-    )  # fmt: skip
-    assert answer["Fx"] == s.Fx
-    assert "layer.yield_stress = 0" in call("solve", *words, "--layer", 0, 0, 0, code=2).stderr
+@pytest.mark.parametrize(
+    ("words", "options", "wrong", "message"),
+    [
+        (("--bodies", *BODIES), {"material": contact.Material.from_pair(*BODIES)},
+         ("--bodies", 1e9, 0.7, 1e9, 0.3), "nu1 = 0.7 is outside"),
+        (("--layer", *LAYER), {"layer": contact.ThirdBody(*LAYER)}, ("--layer", 0, 0, 0), "layer.yield_stress = 0"),
+    ],
+    ids=["bodies", "layer"],
+)  # fmt: skip
+def test_bodies_and_layers_of_the_command_line_are_those_of_the_python_api(words, options, wrong, message):
+    both = {"normal": "halfspace", "tangential": "halfspace"}
+    at = ("--curvatures", 1.1, 0.8, "--creepage", 1e-3, 0, 0, "--normal", "halfspace", "--tangential", "halfspace")
+    answer = json.loads(call("solve", *at, *words, "--json").stdout)["patches"][0]
+    s = contact.solve(contact.Separation.hertzian(1.1, 0.8), contact.Creepage(1e-3), load=80e3, **both, **options)
+    assert (
+        answer["Fx"] == s.Fx != contact.solve(contact.Separation.hertzian(1.1, 0.8), (1e-3, 0, 0), load=80e3, **both).Fx
+    )
+    assert message in call("solve", *at, *wrong, code=2).stderr

@@ -105,9 +105,3 @@ def cli_units(name):
     from contact.cli.document import _OF_COMMAND
 
     return _OF_COMMAND.get(name.replace("-", "_"), {})
-
-
-def test_member_names_go_before_names_alone():
-    found = json.loads(call("roller", 0.6, "--spin", -43.4, "--json").stdout)
-    assert (found["units"]["spin"], found["units"]["creepage.spin"]) == ("rad/s", "1/m")
-    assert found["inputs"]["spin"] == -43.4

@@ -70,13 +70,6 @@ def test_arrays_in_millimetres_are_still_told_their_unit():
     assert misplaced(np.column_stack((1e3 * WHEEL.y, 1e3 * WHEEL.z)), "wheel")[2] == "the unit is m"
 
 
-def test_a_file_that_cannot_be_written_is_refused_before_the_computation(tmp_path):
-    for command in ("patch", "solve", "curve"):
-        result = call(command, "--out", tmp_path / "x.jpg", code=2)
-        assert result.stdout == "", command
-        assert "x.jpg cannot be written" in result.stderr
-
-
 def test_a_flat_lies_at_station_0(tmp_path):
     words = ("--flat", 0.05, "--from", -0.05, "--to", 0.05, "--points", 5, "--normal", "strip_halfspace")
     heights = np.array(json.loads(call("along", *words, "--json").stdout)["z"])
