@@ -84,17 +84,3 @@ def test_states_are_saved_for_fast_restart_and_the_stepper(roots):
                 assert kind.get("canGetAndSetFMUstate") == kind.get("canSerializeFMUstate") == "true"
                 assert kind.get("providesDirectionalDerivative") == "true"  # the solver's Jacobian
                 assert re.fullmatch(r"[A-Za-z]\w*", kind.get("modelIdentifier"), re.ASCII)
-
-
-def test_direct_feedthrough_is_told(roots):
-    """Every output has its dependencies, so Simulink finds no loop where there is none."""
-    for root in roots.values():
-        outputs = sum(v.get("causality") == "output" for v in root.find("ModelVariables"))
-        unknowns = root.findall("ModelStructure/Outputs/Unknown")
-        assert len(unknowns) == outputs
-        assert all(unknown.get("dependencies") is not None for unknown in unknowns)
-
-
-def test_the_sample_time_has_a_default(roots):
-    for root in roots.values():
-        assert float(root.find("DefaultExperiment").get("stepSize")) > 0.0
