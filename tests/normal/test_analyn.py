@@ -65,26 +65,6 @@ def test_separate_patches_are_labelled():
     assert share == pytest.approx(0.5, rel=1e-9), "equal lobes carry equal loads"
 
 
-def test_load_is_continuous_where_patches_are_born_and_merge():
-    separation = two_lobes(10e-6, spacing=8e-3)
-    approaches = np.linspace(5e-6, 160e-6, 600)
-    solutions = [solve(separation, NO_CREEP, approach=float(d)) for d in approaches]
-    loads = np.array([s.N for s in solutions])
-    assert {1, 2} <= {s.n_patches for s in solutions}
-    assert (np.diff(loads) > 0).all(), "N(approach) is monotone"
-    slope = np.diff(loads) / np.diff(approaches)
-    assert np.abs(np.diff(slope)).max() < 0.2 * slope.max(), "a step of 0.1 % of the load"
-
-
-def test_mirrored_separation_gives_the_mirrored_patch():
-    y = np.linspace(-15e-3, 15e-3, 301)
-    g = 2.0 * y**2 + 300.0 * y**3 * (y > 0) + 1e-6 * np.cos(900 * y)
-    one = solve(contact.Separation(y, g, 1.0), NO_CREEP, load=5e4)
-    other = solve(contact.Separation(-y[::-1], g[::-1], 1.0), NO_CREEP, load=5e4)
-    np.testing.assert_allclose(one.strips.p0, other.strips.p0[::-1], rtol=1e-9)
-    assert one.approach == pytest.approx(other.approach, rel=1e-12)
-
-
 def test_contact_locus_carries_the_strips():
     y = np.linspace(-15e-3, 15e-3, 61)
     shifted = solve(contact.Separation(y, 2 * y**2, 1.0, x_c=0.1 * y), NO_CREEP, load=5e4)

@@ -41,6 +41,7 @@ def test_strips_that_interact_are_close_to_hertz_and_say_so():
         sol = contact.solve(contact.Separation.hertzian(A, B), NO_CREEP, load=load * size**2)
         assert sol.max_pressure == pytest.approx(exact.p0, rel=3e-4), (ratio, size, load)
         assert sol.approach == pytest.approx(exact.approach, rel=2e-4), (ratio, size, load)
+        assert sol.normal_stiffness == pytest.approx(1.5 * load * size**2 / exact.approach, rel=1e-3), (ratio, size)
         assert sol.gap_error < 0.01
 
 

@@ -48,12 +48,16 @@ def test_the_fields_add_up_to_the_resultants_and_to_the_power(tangential, share)
 
 
 @pytest.mark.parametrize("tangential", WITH_FIELDS)
-def test_the_batch_gives_the_same_forces(tangential):
+def test_the_batch_and_a_prepared_solver_give_the_same_forces(tangential):
     creepage = contact.Creepage(1e-3, 5e-4, 0.2)
     sol = solved(creepage, 0.6, tangential)
     material = dataclasses.replace(contact.STEEL, pressure_limit=0.6 * peak())
     batch = contact.forces(SEPARATION, creepage, load=LOAD, friction=MU, material=material, tangential=tangential)
     assert (float(batch.Fx), float(batch.Fy), float(batch.Mz)) == (sol.Fx, sol.Fy, sol.Mz)
+    found = contact.Solver(tangential=tangential, friction=MU, material=material).forces(
+        SEPARATION, creepage, load=LOAD
+    )
+    assert (found.Fx, found.Fy, found.Mz) == (sol.Fx, sol.Fy, sol.Mz)
 
 
 @pytest.mark.parametrize("tangential", WITH_FIELDS)
@@ -76,13 +80,3 @@ def test_forces_are_those_of_the_half_space_under_the_cut_pressure(tangential, c
     }[creepage]
     sol = solved(contact.Creepage(*creepage), 0.7, tangential)
     assert np.hypot(sol.Fx / (MU * LOAD) - reference[0], sol.Fy / (MU * LOAD) - reference[1]) < 0.025
-
-
-@pytest.mark.parametrize("tangential", WITH_FIELDS)
-def test_a_prepared_solver_has_the_same_forces(tangential):
-    creepage = contact.Creepage(1e-3, 5e-4, 0.2)
-    sol = solved(creepage, 0.6, tangential)
-    material = dataclasses.replace(contact.STEEL, pressure_limit=0.6 * peak())
-    solver = contact.Solver(tangential=tangential, friction=MU, material=material)
-    found = solver.forces(SEPARATION, creepage, load=LOAD)
-    assert (found.Fx, found.Fy, found.Mz) == (sol.Fx, sol.Fy, sol.Mz)

@@ -32,6 +32,8 @@ def test_mirror_images_have_the_same_strips(in_the_flange):
         other = contact.solve(image(separation), IMAGE_OF_CREEPAGE, load=load, throw=False)
         assert (other.approach, other.status) == (one.approach, one.status)
         np.testing.assert_array_equal(other.strips.a, one.strips.a[::-1])
+        np.testing.assert_array_equal(other.strips.p0, one.strips.p0[::-1])
+        np.testing.assert_array_equal(other.strips.x_c, one.strips.x_c[::-1])
         np.testing.assert_array_equal(other.strips.y, -one.strips.y[::-1])
         np.testing.assert_array_equal(other.strips.patch, one.n_patches - 1 - one.strips.patch[::-1])
         assert other.Fx == pytest.approx(one.Fx, abs=1e-9 * load)
