@@ -158,26 +158,15 @@ def _slices(folder: Path) -> None:
 
 
 @pytest.mark.slow
-def test_a_damaged_file_of_slices_of_a_rail(tmp_path):
-    _slices(tmp_path)
-    path = tmp_path / "nose.slcs"
-    path.write_text(NOSE)
-    survived(path, lambda: RailSurface.read(path), 40)
-
-
-@pytest.mark.slow
-def test_a_damaged_file_of_slices_of_a_wheel(tmp_path):
+def test_damaged_files_of_slices_and_a_damaged_slice_in_a_file_and_in_a_folder(tmp_path):
     _slices(tmp_path)
     path = tmp_path / "wheel.slcw"
     path.write_text("0.0 0.0174532925\n4\n0 0 0\n2\n" + "".join(f"{10 * k} 'slice_{k}.txt'\n" for k in range(4)))
     survived(path, lambda: WheelSurface.read(path), 40)
-
-
-@pytest.mark.slow
-def test_a_damaged_slice_in_a_file_and_in_a_folder(tmp_path):
-    _slices(tmp_path)
+    path.unlink()
     path = tmp_path / "nose.slcs"
     path.write_text(NOSE)
+    survived(path, lambda: RailSurface.read(path), 40)
     survived(tmp_path / "slice_1.txt", lambda: RailSurface.read(path), 10)
     path.unlink()
     survived(tmp_path / "slice_1.txt", lambda: RailSurface.read(tmp_path, s=[0.0, 0.1, 0.2, 0.3]), 10)

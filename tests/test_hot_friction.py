@@ -130,28 +130,6 @@ def test_force_falls_with_temperature_to_the_hot_friction(tangential):
         assert found[-1] == pytest.approx(last, rel=1e-9)
 
 
-@pytest.mark.parametrize("tangential", FIELDS)
-def test_hot_friction_keeps_the_symmetries(tangential):
-    for xi, eta, phi in CREEPAGES:
-        one, negative, mirrored = (
-            solve(c, tangential=tangential) for c in ((xi, eta, phi), (-xi, -eta, -phi), (xi, -eta, -phi))
-        )
-        unit = 0.3 * one.N
-        assert (negative.Fx, negative.Fy) == pytest.approx((-one.Fx, -one.Fy), abs=1e-12 * unit)
-        assert (mirrored.Fx, mirrored.Fy) == pytest.approx((one.Fx, -one.Fy), abs=1e-6 * unit)
-        assert negative.Mz == pytest.approx(-one.Mz, abs=1e-14 * unit)
-
-
-@pytest.mark.parametrize("velocity", ["global", "local", "greatest"])
-@pytest.mark.parametrize("tangential", FIELDS)
-def test_forces_are_continuous_in_the_creepage(tangential, velocity):
-    """Friction almost vanishes over 20 K, with and without a fall with slip velocity."""
-    xi = np.arange(1, 1200) * 1e-5
-    friction = Friction(0.5, 0.3, 0.1, "exponential", velocity=velocity, hot_factor=0.1, temperature_range=20.0)
-    Fx = contact.forces(SEPARATION, (xi, 1e-3, 0.2), load=8e4, friction=friction, tangential=tangential).Fx / 4e4
-    assert np.abs(np.diff(Fx)).max() < 5e-3
-
-
 @pytest.mark.parametrize("tangential", [*METHODS, "halfspace"])
 def test_warm_bodies_have_less_friction_everywhere(tangential):
     """Bodies above the range have the hot coefficient, also in stick and for laws that give only forces."""

@@ -7,10 +7,7 @@ from typing import Any
 import pytest
 
 import contact
-from contact.damage import (
-    DamageParameters,
-    evaluate,
-)
+from contact.damage import DamageParameters, evaluate
 from contact.friction import Friction
 from contact.geometry.flexible import WheelOffset
 from contact.geometry.surfaces import SurfacePair

@@ -21,7 +21,7 @@ from contact.halfspace import Gap, LocalLaw, Transient
 from contact.inputs.material import Thermal
 from contact.pair import ContactDamping, FrictionMemory, HalfspacePair, RollerRig, WheelRailPair
 from contact.pair.curving import in_curve
-from contact.stress import Endurance, SurfaceLoad, at, dang_van
+from contact.stress import Endurance, SurfaceLoad, at, below, dang_van, largest
 from contact.study.manchester import manchester
 from contact.study.statistics import statistics
 from contact.theory import kalker
@@ -138,16 +138,18 @@ REFUSED: list[tuple[Callable[[], Any], str]] = [
     (lambda: contact.forces(ELLIPSE, CREEPAGE, load=[1.0, 2.0], friction=[0.1, 0.2, 0.3]), r"do not broadcast: \(2,\)"),
     (lambda: contact.forces(ELLIPSE, CREEPAGE), "exactly one"),
     (lambda: contact.forces(ELLIPSE, CREEPAGE, load="heavy"), "load = 'heavy' is not a number"),
+    (lambda: contact.Solver().forces(None, CREEPAGE, load=1.0), "separation = None is not a contact.Separation"),
+    (
+        lambda: contact.Solver().forces(ELLIPSE, (1e-3, 0.0), load=1.0),
+        r"creepage = .* is neither a contact.Creep",
+    ),
     (lambda: contact.Solver(normal="analin"), "normal = 'analin' is not a registered method, did you mean 'analyn'"),
     (lambda: contact.Solver(normal="halfspace"), "normal = 'halfspace' is not offered here, only by contact.solve"),
     (lambda: contact.Solver(tangential="fastsim_knothe"), "tangential = 'fastsim_knothe' is not offered here, only by"),
     (lambda: contact.Solver(n_samples=2), r"n_samples = 2 is not an integer in the allowed range \[3, inf\["),
     (lambda: contact.Solver(n_samples=3.7), r"n_samples = 3.7 is not an integer"),
     (lambda: contact.Solver(friction="dry"), "friction = 'dry' is not a number"),
-    (
-        lambda: contact.Solver(tangential="polach", conformal=True),
-        "conformal: tangential = 'polach' is only for",
-    ),
+    (lambda: contact.Solver(tangential="polach", conformal=True), "conformal: tangential = 'polach' is only for"),
     (lambda: Gap([0.0], [0.0, 1.0], [[0.0], [0.0]]), "x has shape"),
     (lambda: Gap([0.0, 1.0, 3.0], [0.0, 1.0], np.zeros((2, 3))), "equal steps"),
     (lambda: Gap([0.0, 1.0], [0.0, 1.0], np.zeros((3, 2))), r"\(2, 2\) is needed"),
@@ -180,10 +182,7 @@ REFUSED: list[tuple[Callable[[], Any], str]] = [
     (lambda: Thermal(density=0.0), r"thermal.density = 0 is outside"),
     (lambda: law(law="stribeck"), "friction.law = 'stribeck' is unknown; allowed: coulomb, linear"),
     (lambda: law(velocity="mean"), "friction.velocity = 'mean' is unknown; allowed: global, local, greatest"),
-    (
-        lambda: law(reference_temperature=-1.0),
-        r"friction.reference_temperature = -1 is outside the .* \[0, 100000\]",
-    ),
+    (lambda: law(reference_temperature=-1.0), r"friction.reference_temperature = -1 is outside the .* \[0, 100000\]"),
     (lambda: law(background_temperature=math.nan), "friction.background_temperature = nan"),
     (lambda: contact.ThirdBody(flexibility=-1.0), "layer.flexibility = -1"),
     (lambda: contact.ThirdBody(yield_stress=0.0), "layer.yield_stress = 0"),
@@ -251,6 +250,16 @@ REFUSED: list[tuple[Callable[[], Any], str]] = [
     (lambda: stressed(body="sleeper"), "body = 'sleeper' is unknown; allowed: rail, wheel"),
     (lambda: stressed(poisson_ratio=0.6), "poisson_ratio = 0.6 is outside the allowed range"),
     (lambda: stressed(load=3.0), "neither a contact.Solution nor"),
+    (lambda: SurfaceLoad([0.0, 1.0, 3.0], [0.0, 1.0], np.ones((2, 3))), "does not increase in equal steps"),
+    (
+        lambda: SurfaceLoad([0.0, 1.0], [0.0, 1.0], np.ones((2, 2)), np.ones(2)),
+        r"qx has shape \(2,\); \(2, 2\) is needed",
+    ),
+    (lambda: SurfaceLoad([0.0, 1.0], [0.0, 1.0], [[0.0, math.nan], [1.0, 1.0]]), r"p\[0, 1\] = nan"),
+    (lambda: largest(solve(load=0.0)), "NO_CONTACT: there is no contact"),
+    (lambda: largest(solve(load=8e4, tangential="polach")), "gives forces only"),
+    (lambda: largest(SQUARE, "mises"), "criterion = 'mises' is unknown"),
+    (lambda: below(SQUARE, np.ones((2, 2))), r"z has shape \(2, 2\)"),
     (lambda: dang_van(SQUARE, [1.0], slope=4.0), "slope = 4 is outside the allowed range"),
     (lambda: dang_van(SQUARE, [1.0], slope=-1.0), "slope = -1 is outside the allowed range"),
     (lambda: dang_van(SQUARE, [1.0], residual=math.nan), "residual = nan is not finite"),

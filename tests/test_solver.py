@@ -80,16 +80,9 @@ def test_results_equal_solve_bit_for_bit_after_any_other_calls(normal, tangentia
         methods = {"normal": normal, "tangential": tangential, **SMALL}
         expected = contact.solve(separation, creepage, friction=0.35, speed=30.0, throw=False, **methods, **amount)
         assert_same_bits(solver.solve(separation, creepage, throw=False, **amount), expected)
-
-
-@pytest.mark.parametrize(("normal", "tangential"), PAIRS)
-def test_forces_only_equals_solve_bit_for_bit(normal, tangential):
-    solver = prepared(normal, tangential)
-    for separation, creepage, amount in CALLS:
-        full = solver.solve(separation, creepage, throw=False, **amount)
         forces = solver.forces(separation, creepage, **amount)
         for each in dataclasses.fields(forces):
-            assert getattr(forces, each.name) == getattr(full, each.name), each.name
+            assert getattr(forces, each.name) == getattr(expected, each.name), each.name
 
 
 def test_a_bent_surface_is_solved_as_by_solve():
@@ -178,12 +171,7 @@ def test_a_larger_separation_makes_room(way):
 @pytest.mark.parametrize(
     ("arguments", "message"),
     [
-        ({"load": -1.0}, r"load = -1 is outside the allowed range \[0, inf\["),
-        ({"load": float("nan")}, r"load = nan is outside the allowed range \[0, inf\["),
-        ({"load": "80e3"}, "load = '80e3' is not a number"),
-        ({"approach": float("inf")}, r"approach = inf is not finite"),
         ({}, "exactly one of load and approach is needed; load = None, approach = None"),
-        ({"load": 1.0, "approach": 1e-5}, "exactly one of load and approach is needed; load = 1.0, approach = 1e-05"),
         ({"load": 1e3, "friction": -0.1}, r"friction = -0.1 is outside the allowed range \[0, 1e\+06\]"),
         ({"load": 1e3, "friction": 0.5, "speed": -1.0}, r"speed = -1 is outside the allowed range \[0, inf\["),
         ({"load": -1.0, "friction": 0.5}, r"load = -1 is outside the allowed range \[0, inf\["),
@@ -197,20 +185,6 @@ def test_bad_input_is_named_with_its_range_and_the_solver_goes_on(arguments, mes
         solver.solve(ELLIPSE, CALLS[0][1], **arguments)
     assert_same_bits(solver.solve(ELLIPSE, CALLS[0][1], load=60e3), before)
     assert_same_bits(solver.solve(ELLIPSE, CALLS[0][1], load=60e3, speed=20.0), before)
-
-
-@pytest.mark.parametrize(
-    ("arguments", "message"),
-    [
-        ((None, contact.Creepage()), "separation = None is not a contact.Separation"),
-        ((ELLIPSE, (1e-3, 0.0)), r"creepage = \(0.001, 0.0\) is neither a contact.Creepage nor"),
-    ],
-)
-@pytest.mark.parametrize("way", ["solve", "forces"])
-def test_arguments_of_another_type_are_named(arguments, message, way):
-    solver = prepared()
-    with pytest.raises(ContactError, match=message):
-        getattr(solver, way)(*arguments, load=60e3)
 
 
 def test_the_status_of_forces_reports_unreliable_results():

@@ -261,13 +261,6 @@ def solve_from_cold(one, pose):
     return one.solve(pose, load=8e4)
 
 
-def test_threads_with_a_copy_each_make_a_parameter_study():
-    one, poses = WheelRailPair(pair()), [pose(k) for k in range(12)]
-    here = [solve_from_cold(one, each).Q for each in poses]
-    with ThreadPoolExecutor(3) as threads:
-        assert list(threads.map(lambda each: copy.copy(one).solve(each, load=8e4).Q, poses)) == pytest.approx(here)
-
-
 def test_a_callback_that_uses_its_own_object_is_refused_and_the_object_serves_afterwards():
     def roll(*_):
         rolled.roll(Creepage(1e-3), distance=1e-3)

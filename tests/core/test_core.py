@@ -113,13 +113,6 @@ def test_packed_arguments_follow_their_arrays_into_a_copy():
         assert other.words == pack(Samples, other.value).words
 
 
-def test_a_separation_can_be_copied_and_sent_to_another_process():
-    separation = contact.Separation.hertzian(1.1, 0.8)
-    expected = contact.solve(separation, contact.Creepage(1e-3), load=8e4).Fx
-    for other in (copy.deepcopy(separation), pickle.loads(pickle.dumps(separation))):
-        assert contact.solve(other, contact.Creepage(1e-3), load=8e4).Fx == expected
-
-
 def test_the_name_of_the_library_depends_on_kernels_and_the_tables_that_it_holds(tmp_path, monkeypatch):
     kernel, other = tmp_path / "kernel.py", tmp_path / "other.py"
     kernel.write_text("\n@kernel\ndef f():\n    pass\n")
