@@ -13,6 +13,11 @@ from fmpy.fmi2 import FMU2Model, FMU2Slave, defaultCallbacks, fmi2CallbackFuncti
 OK, WARNING, DISCARD, ERROR = range(4)
 
 
+def named(group: str, **values: float) -> dict[str, float]:
+    """Return values by the names of an FMU's variables: `group.name`."""
+    return {f"{group}.{name}": value for name, value in values.items()}
+
+
 class Instance:
     """An instance with access to variables by name. It stores its log messages."""
 

@@ -5,6 +5,7 @@ import math
 import numpy as np
 import pytest
 from fmpy.fmi1 import FMICallException
+from fmu_instance import named
 
 import contact
 from contact.geometry import profile
@@ -18,33 +19,11 @@ METHODS = contact.methods().batched
 R0 = 0.46
 #: A motion with lateral shift, yaw, rates and an irregular rail.
 MOTION = {
-    "pose.y": 2e-3,
-    "pose.roll": 1e-3,
-    "pose.yaw": 4e-3,
-    "velocity.x": 30.0,
-    "velocity.y": 0.05,
-    "velocity.z": 0.01,
-    "velocity.roll": 0.01,
-    "velocity.yaw": 0.02,
-    "velocity.spin": -30.0 / R0 * 1.001,
-    "irregularity.y": 0.5e-3,
-    "irregularity.z": -0.2e-3,
-    "irregularity.roll": 1e-3,
-    "irregularity.y_rate": 0.02,
-    "irregularity.z_rate": -0.01,
-    "irregularity.roll_rate": 0.03,
-    "offset.x": 0.4e-3,
-    "offset.y": -0.6e-3,
-    "offset.z": 0.3e-3,
-    "offset.roll": -1.5e-3,
-    "offset.pitch": 0.01,
-    "offset.yaw": 2e-3,
-    "offset.x_rate": 0.02,
-    "offset.y_rate": 0.03,
-    "offset.z_rate": -0.01,
-    "offset.roll_rate": 0.02,
-    "offset.pitch_rate": -0.03,
-    "offset.yaw_rate": 0.01,
+    **named("pose", y=2e-3, roll=1e-3, yaw=4e-3),
+    **named("velocity", x=30.0, y=0.05, z=0.01, roll=0.01, yaw=0.02, spin=-30.0 / R0 * 1.001),
+    **named("irregularity", y=0.5e-3, z=-0.2e-3, roll=1e-3, y_rate=0.02, z_rate=-0.01, roll_rate=0.03),
+    **named("offset", x=0.4e-3, y=-0.6e-3, z=0.3e-3, roll=-1.5e-3, pitch=0.01, yaw=2e-3),
+    **named("offset", x_rate=0.02, y_rate=0.03, z_rate=-0.01, roll_rate=0.02, pitch_rate=-0.03, yaw_rate=0.01),
 }
 OFFSET = [name.split(".")[1] for name in MOTION if name.startswith("offset.")]
 
@@ -109,34 +88,19 @@ def solved(values: dict[str, float], pair: WheelRailPair, **place: float) -> Pai
 
 def expected(s: PairSolution, speed: float) -> dict[str, float]:
     """Return the outputs by the solver, without the totals."""
-    damage = s.damage
+    d = s.damage
     outputs = {
         **dict(zip(("force.x", "force.y", "force.z"), s.force.tolist(), strict=True)),
         **dict(zip(("moment.x", "moment.y", "moment.z"), s.moment.tolist(), strict=True)),
-        "wheelset.z": s.z,
-        "pressure.max": s.max_pressure,
-        "patches.count": len(s.contacts),
-        "patches.area": s.area,
-        "slip.ratio": s.slip_ratio,
-        "power.friction": abs(speed) * s.power_per_metre,
-        "damage.T_gamma": damage.T_gamma,
-        "damage.wear_rate_pearce_sherratt": damage.pearce_sherratt,
-        "damage.index_burstow": damage.burstow,
-        "damage.wear_rate_usfd": damage.usfd,
-        "damage.archard_depth_max": damage.archard_depth,
-        "damage.archard_volume": damage.archard_volume,
-        "damage.fatigue_index_surface": damage.fatigue_index,
-        "damage.stress_index_max": damage.stress_index,
-        "damage.energy_index_max": damage.energy_index,
-        "status": s.status,
-        "gap_error": s.gap_error,
-        "wheel.Q": s.Q,
-        "wheel.Y": s.Y,
-        "wheel.Y_over_Q": s.Y_over_Q,
-        "used_friction": s.used_friction,
-        "bend": s.bend,
-        "rail.deflection_y": s.deflection[0],
-        "rail.deflection_z": s.deflection[1],
+        **{"wheelset.z": s.z, "pressure.max": s.max_pressure, "slip.ratio": s.slip_ratio, "gap_error": s.gap_error},
+        **{"power.friction": abs(speed) * s.power_per_metre, "used_friction": s.used_friction, "bend": s.bend},
+        **named("patches", count=len(s.contacts), area=s.area),
+        **named("damage", T_gamma=d.T_gamma, wear_rate_pearce_sherratt=d.pearce_sherratt, index_burstow=d.burstow),
+        **named("damage", wear_rate_usfd=d.usfd, archard_depth_max=d.archard_depth, archard_volume=d.archard_volume),
+        **named("damage", fatigue_index_surface=d.fatigue_index, stress_index_max=d.stress_index),
+        **{"damage.energy_index_max": d.energy_index, "status": s.status},
+        **named("wheel", Q=s.Q, Y=s.Y, Y_over_Q=s.Y_over_Q),
+        **named("rail", deflection_y=s.deflection[0], deflection_z=s.deflection[1]),
     }
     for k in range(3):
         c = s.contacts[k] if k < len(s.contacts) else None
@@ -183,53 +147,27 @@ def random_case(seed: int) -> tuple[dict[str, float], WheelRailPair]:
     G, nu, H, k = rng.uniform(70e9, 90e9), rng.uniform(0.0, 0.5), rng.uniform(2e9, 4e9), rng.uniform(2e8, 4e8)
     material = contact.Material(G, nu, hardness=H, shear_yield=k)
     geometry = Pair(
-        profile.s1002(),
-        profile.rail_60e1(0.0).rotated(-math.atan(inclination)),
-        side="left" if left else "right",
-        nominal_radius=radius,
-        gauge=gauge,
-        gauge_point=gauge_point,
-        flange_back=flange_back,
-        combine_distance=distance,
-        combine_angle=angle,
-        most_patches=most,
-        samples=samples,
-        material=material,
-        reference_speed=reference,
-    )
+        profile.s1002(), profile.rail_60e1(0.0).rotated(-math.atan(inclination)), side="left" if left else "right",
+        nominal_radius=radius, gauge=gauge, gauge_point=gauge_point, flange_back=flange_back, combine_distance=distance,
+        combine_angle=angle, most_patches=most, samples=samples, material=material, reference_speed=reference,
+    )  # fmt: skip
     pose, rail = rng.uniform((-9e-3, -0.02, -0.03), (9e-3, 0.02, 0.03)), rng.uniform(-1, 1, 3) * (1e-3, 1e-3, 5e-3)
     at = Pose(pose[0], 0.0, pose[1], pose[2])
     z = geometry.touch(at, Irregularity(*rail)) + rng.uniform(-3e-5, 2e-4)
     values = {
-        "side": 1 if left else 2,
-        "load.kind": 1 if by_load else 2,
-        "wheel.radius": radius,
-        "wheel.flange_back": flange_back,
-        "track.gauge": gauge,
-        "track.gauge_point": gauge_point,
-        "rail.inclination": inclination,
-        "patches.max": most,
-        "patches.combine_distance": distance,
-        "patches.combine_angle": angle,
-        "method.normal": normal + 1,
-        "method.tangential": tangential + 1,
-        "material.shear_modulus": G,
-        "material.poisson_ratio": nu,
-        "material.hardness": H,
-        "material.shear_yield": k,
-        "resolution.n_strips": n_strips,
-        "resolution.n_elements": n_elements,
-        "resolution.n_samples": samples,
-        "reference_speed": reference,
-        "pose.y": pose[0],
-        "pose.z": z,
-        "pose.roll": pose[1],
-        "pose.yaw": pose[2],
+        **{"side": 1 if left else 2, "reference_speed": reference, "wheel.radius": radius, "wheel.flange_back": flange_back},
+        **{"track.gauge": gauge, "track.gauge_point": gauge_point, "rail.inclination": inclination},
+        **named("patches", max=most, combine_distance=distance, combine_angle=angle),
+        **named("method", normal=normal + 1, tangential=tangential + 1),
+        **named("material", shear_modulus=G, poisson_ratio=nu, hardness=H, shear_yield=k),
+        **named("resolution", n_strips=n_strips, n_elements=n_elements, n_samples=samples),
+        **named("pose", y=pose[0], z=z, roll=pose[1], yaw=pose[2]),
         "velocity.x": V,
         **{f"velocity.{name}": x for name, x in zip(("y", "z", "roll", "yaw"), rng.uniform(-0.1, 0.1, 4), strict=True)},
         "velocity.spin": -V / radius * rng.uniform(0.995, 1.005),
         **{f"irregularity.{name}": x for name, x in zip(("y", "z", "roll"), rail, strict=True)},
         **{f"irregularity.{name}_rate": x for name, x in zip(("y", "z", "roll"), rng.uniform(-0.05, 0.05, 3), strict=True)},
+        "load.kind": 1 if by_load else 2,
         "load.normal_force": 10 ** rng.uniform(3.5, 5.2) if rng.random() < 0.95 else 0.0,
         "friction.coefficient": rng.uniform(0.0, 0.6),
     }  # fmt: skip
@@ -243,14 +181,8 @@ def random_case(seed: int) -> tuple[dict[str, float], WheelRailPair]:
     if rng.random() < 0.3:  # a flexible wheel
         size = np.array((1e-3, 1e-3, 1e-4, 5e-3, 0.1, 5e-3, *6 * (0.05,)))
         values |= {f"offset.{name}": x for name, x in zip(OFFSET, rng.uniform(-1, 1, 12) * size, strict=True)}
-    pair = WheelRailPair(
-        geometry,
-        material=material,
-        normal=list(METHODS.normal)[normal],
-        tangential=list(METHODS.tangential)[tangential],
-        n_strips=n_strips,
-        n_elements=n_elements,
-    )
+    methods = {"normal": list(METHODS.normal)[normal], "tangential": list(METHODS.tangential)[tangential]}
+    pair = WheelRailPair(geometry, material=material, **methods, n_strips=n_strips, n_elements=n_elements)
     return values, pair
 
 

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 from contact_case import CREEPAGES
+from fmu_instance import named
 
 import contact
 from contact.damage import evaluate
@@ -74,9 +75,8 @@ class Case:
         for name in scale:
             if name.startswith("damage") and force > 0.0:
                 scale[name] *= limit / force
-        lateral = (
-            np.hypot(limit, s.N) if abs(s.Fy) > limit else limit
-        )  # the pressure on a tilted surface has a part in it
+        # the pressure on a tilted surface has a part in the lateral force
+        lateral = np.hypot(limit, s.N) if abs(s.Fy) > limit else limit
         scale |= {"force.x": limit, "force.y": lateral, "moment.z": 0.02 * lateral, "slip.ratio": 1.0}
         scale |= {"damage.stress_index_max": s.material.shear_yield, "damage.fatigue_index_surface": 1.0}
         scale |= {"gap_error": 1.0, "bend": 1.0}
@@ -124,59 +124,34 @@ def random_case(seed: int) -> Case:
     bent = rng.random() < 0.3
     tilt, rolling = rng.uniform(-0.2, 0.2) + rng.uniform(-20, 20) * y, rng.uniform(0.0, 3.0)
     values = {
-        "geometry.kind": 2 if curvatures else 1,
-        "geometry.y0": y0,
-        "geometry.dy": dy,
+        **named("geometry", kind=2 if curvatures else 1, y0=y0, dy=dy, surface=2 if bent else 1, rolling=rolling),
         **{f"geometry.g[{i}]": v for i, v in enumerate(g, 1)},
         **{f"geometry.A[{i}]": v for i, v in enumerate(A, 1)},
-        "geometry.surface": 2 if bent else 1,
         **{f"geometry.tilt[{i}]": v for i, v in enumerate(tilt, 1)},
-        "geometry.rolling": rolling,
-        "geometry.A0": A[20],
-        "geometry.B0": B,
-        "load.kind": 1 if by_load else 2,
-        "load.normal_force": load,
-        "load.approach": approach,
+        **named("geometry", A0=A[20], B0=B),
+        **named("load", kind=1 if by_load else 2, normal_force=load, approach=approach),
         **dict(zip(CREEPAGES, creepages.tolist(), strict=True)),
-        "material.shear_modulus": G,
-        "material.poisson_ratio": nu,
-        "material.hardness": H,
-        "material.shear_yield": k,
-        "material.pressure_limit": limit,
-        "friction.coefficient": mu,
-        "friction.law": law + 1,
-        "friction.kinetic": kinetic,
-        "friction.half_speed": half_speed,
+        **named("material", shear_modulus=G, poisson_ratio=nu, hardness=H, shear_yield=k, pressure_limit=limit),
+        **named("friction", coefficient=mu, law=law + 1, kinetic=kinetic, half_speed=half_speed, velocity=velocity + 1),
         **dict(zip(("friction.slope", "friction.slope_far", "friction.slope_rate"), slopes, strict=True)),
-        "friction.velocity": velocity + 1,
         **dict(zip(("friction.gauge_factor", "friction.border", "friction.border_width"), sides, strict=True)),
         **dict(zip(("friction.k_A", "friction.k_S"), polach, strict=True)),
         **dict(zip(HEAT, (*hot, *thermal), strict=True)),
-        "speed": speed,
-        "wheel.radius": radius,
-        "method.normal": normal + 1,
-        "method.tangential": tangential + 1,
-        "resolution.n_strips": n_strips,
-        "resolution.n_elements": n_elements,
+        **{"speed": speed, "wheel.radius": radius, "method.normal": normal + 1, "method.tangential": tangential + 1},
+        **named("resolution", n_strips=n_strips, n_elements=n_elements),
     }
+    methods = {"normal": list(METHODS.normal)[normal], "tangential": list(METHODS.tangential)[tangential]}
+    whole = contact.Separation(y, g, A, tilt=tilt, rolling=rolling)
     solution = contact.solve(
-        contact.Separation.hertzian(A[20], B)
-        if curvatures
-        else contact.Separation(y, g, A, tilt=tilt, rolling=rolling),
+        contact.Separation.hertzian(A[20], B) if curvatures else whole,
         contact.Creepage(*creepages),
-        load=load if by_load else None,
-        approach=None if by_load else approach,
+        **{"load": load} if by_load else {"approach": approach},
         friction=Friction(
             *(mu, kinetic, half_speed, LAWS[law], *slopes, VELOCITIES[velocity], *sides, *polach, *hot),
             thermal=Thermal(*thermal),
         ),
         material=contact.Material(G, nu, hardness=H, shear_yield=k, pressure_limit=limit or math.inf),
-        speed=speed,
-        normal=list(METHODS.normal)[normal],
-        tangential=list(METHODS.tangential)[tangential],
-        n_strips=n_strips,
-        n_elements=n_elements,
-        conformal=bent and METHODS.tangential[list(METHODS.tangential)[tangential]].fields,
-        throw=False,
-    )
+        speed=speed, **methods, n_strips=n_strips, n_elements=n_elements, throw=False,
+        conformal=bent and METHODS.tangential[methods["tangential"]].fields,
+    )  # fmt: skip
     return Case(seed, values, solution)
