@@ -20,7 +20,6 @@ from contact.reading.text import content
 #: Of a drawing's extent: distance of points on long lines, what is long, chords off arcs, distance of ends that meet.
 _SPACING, _LONG, _CHORD, _TOGETHER = 1 / 400, 1 / 30, 1e-6, 1e-4
 _OWN = {1: "inch", 4: "mm", 6: "m"}  # $INSUNITS of DXF
-_MOST_SHOWN = 12  # lines of a drawing in a message
 
 
 def dxf(path: Path, choice: Choice) -> Content:
@@ -37,18 +36,23 @@ def dxf(path: Path, choice: Choice) -> Content:
     except (OSError, ezdxf.DXFError, ValueError, TypeError, KeyError, IndexError, StopIteration) as error:
         raise ContactError(f"path = {str(path)!r} is no DXF drawing: {error}") from None
     entities = list(_entities(drawing.modelspace()))
-    ends = [point for entity in entities for point in _flat(entity, None)]
-    if not ends:
+    ends = [_flat(entity, None) for entity in entities]
+    if not any(map(len, ends)):
         raise ContactError(f"path = {str(path)!r} holds no lines, arcs, polylines or splines in its model space")
-    extent = float(np.hypot(*np.ptp(ends, axis=0)))
-    pieces = [np.array(found) for entity in entities if len(found := _flat(entity, _CHORD * extent)) > 1]
+    extent = float(np.hypot(*np.ptp(np.concatenate(ends)[:, :2], axis=0)))
+    if (rise := max(float(np.ptp(end[:, 2])) for end in ends if len(end))) > _TOGETHER * extent:
+        raise ContactError(
+            f"path = {str(path)!r} has lines that rise by {rise:.4g} out of the x-y plane of the drawing, from which y and z "
+            "of the profile are read; turn them into this plane"
+        )
+    pieces = [found[:, :2] for entity in entities if len(found := _flat(entity, _CHORD * extent)) > 1]
     lines = sorted(_joined(pieces, _TOGETHER * extent), key=_length, reverse=True)
     told: tuple[Finding, ...] = ()
     if own := _OWN.get(int(drawing.header.get("$INSUNITS", 0))):
         seen = f"the drawing says that its unit is {own}"
         told = (Finding(Fault.FILE, seen, f"unit={own!r} reads it so", np.empty((0, 2))),)
     parts = []
-    for line in lines[:_MOST_SHOWN]:
+    for line in lines:
         fine = _refined(line, _SPACING * float(np.hypot(*np.ptp(line, axis=0))))
         width, height = np.ptp(line, axis=0)
         parts.append((f"line {width:.4g} wide and {height:.4g} high", Content(fine, outwards=choice.side != "left")))
@@ -69,8 +73,8 @@ def _entities(space: Any) -> Iterator[Any]:
             yield entity
 
 
-def _flat(entity: Any, chord: float | None) -> list[tuple[float, float]]:
-    """Return points of an entity, off its arcs by at most `chord`; a few points without it."""
+def _flat(entity: Any, chord: float | None) -> Points:
+    """Return points x, y, z of an entity, off its arcs by at most `chord`; a few points without it."""
     kind = entity.dxftype()
     if kind == "LINE":
         points = [entity.dxf.start, entity.dxf.end]
@@ -81,7 +85,7 @@ def _flat(entity: Any, chord: float | None) -> list[tuple[float, float]]:
         points = list(entity.flattening(chord or 0.01 * entity.dxf.major_axis.magnitude))
     else:
         points = list(entity.flattening(chord or 0.01 * entity.dxf.radius))
-    return [(float(point[0]), float(point[1])) for point in points]
+    return np.array([tuple(point) for point in points], dtype=np.float64).reshape(-1, 3)
 
 
 def _joined(pieces: list[Points], near: float) -> list[Points]:
@@ -155,7 +159,7 @@ def _cells(row: Iterable[Any]) -> list[str]:
     """Return the cells of a row as texts. Numbers keep all digits."""
     return [
         "" if cell is None
-        else repr(float(cell)) if isinstance(cell, int | float) and not isinstance(cell, bool)
+        else repr(cell) if isinstance(cell, int | float) and not isinstance(cell, bool)
         else cell.isoformat() if isinstance(cell, datetime.date | datetime.time)
         else str(cell).replace("\t", " ").replace("\n", " ")
         for cell in row

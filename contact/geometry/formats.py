@@ -21,7 +21,7 @@ from contact.reading.text import lines_of
 
 MM = 1e-3
 INCH = 25.4e-3
-_SHOWN = 3  # rows in a message
+_SHOWN, _MOST_PARTS = 3, 12  # rows and lists of points in a message
 
 
 @dataclass(frozen=True)
@@ -122,6 +122,8 @@ def simpack(path: Path, choice: Choice) -> Content:
         low, high = header.get(f"bound.{axis}.min", 1.0), header.get(f"bound.{axis}.max", 0.0)
         if low < high:  # otherwise the bounds are switched off
             points = points[(points[:, column] >= low) & (points[:, column] <= high)]
+            if not len(points):
+                raise ContactError(f"path = {str(path)!r}: bound.{axis} from {low:g} to {high:g} leaves no point")
     for column, axis in enumerate("yz"):
         if header.get(f"mirror.{axis}", 0.0) == 1.0:
             points[:, column] *= -1.0
@@ -166,7 +168,9 @@ def miniprof_sections(path: Path, choice: Choice) -> Content:
 
 def chosen(parts: Sequence[tuple[str, Content]], path: Path, choice: Choice) -> Content:
     """Return the part of a file that `choice.section` names, or all joined end to end."""
-    listed = ", ".join(f"{k} {name} with {len(part.points)} points" for k, (name, part) in enumerate(parts, 1))
+    named = [f"{k} {name} with {len(part.points)} points" for k, (name, part) in enumerate(parts, 1)]
+    more = f" and {len(named) - _MOST_PARTS} more" if len(named) > _MOST_PARTS else ""
+    listed = ", ".join(named[:_MOST_PARTS]) + more
     if choice.section is None and len(parts) > 1:
         raise ContactError(
             f"path = {str(path)!r} holds {len(parts)} lists of points: {listed}; set section to the number of one, or to "

@@ -19,6 +19,8 @@ LEAST_WIDTH = 1e-3  # of a twin disc [m]
 FLANGE_BACK = 0.070  # distance of the back of the flange from the tape circle [m] (EN 13715)
 TIP_FROM_TAPE = 0.055  # distance of the flange's tip from the tape circle [m] (EN 13715)
 FLANGE = 0.015  # a flange's tip lies at least this far below the median of a wheel's points [m]
+HIGHEST = 0.042  # a worn flange is lower [m]
+_BEHIND = 4e-3  # a wheel that goes on so far behind the usual place of the tip has a flange [m]
 CROWN_FROM_GAUGE = 0.036  # half the width of a rail's head [m], from its gauge face
 
 TIP_SHARE = 0.3  # share of the width up to which an extreme point is a flange's tip, and from which a rail's crown
@@ -29,6 +31,7 @@ _OVERLAP = 0.1  # of the narrower of two parts: those of one scan with a gap ove
 LOOPS = 4.0  # length of the path over the extent beyond which rows are not in order; S1002 has 1.5
 MOST_SCANS = 10
 RETURN = 0.2  # share of the points on the way back that makes a backward scan
+_ASIDE, _FOLD = 0.1, 8  # of the extent: how far it may lie aside of the way out; points on either side of its turn
 _GAP, _OVER_SPACING = 2.5e-3, 8.0  # least length of a gap [m], and over the median spacing
 ROUGH = 3e-3  # error of tangents [rad] above which noise is reported
 TANGENT_OF_NOISE = 1.2  # error of a spline's tangents over noise/spacing (docs/use/profiles.md, measured)
@@ -65,6 +68,7 @@ class Fault(StrEnum):
     HEIGHT = "offset of height"
     SIDE = "offset to the side"
     TURNED = "turned"
+    FLANGE = "flange"
 
 
 #: Faults with which the points are no curve: `read` refuses them unless it may repair them.
@@ -185,7 +189,15 @@ def place(points: Points, kind: Kind, scale: float = 1.0) -> list[Finding]:
     if not y.min() < 0.0 < y.max():
         seen = f"the profile lies between y = {_mm(y.min())} and {_mm(y.max())}; the tape circle at y = 0 is not on it"
         return [Finding(Fault.SIDE, seen, "move its zero to the tape circle", points[[0, -1]])]
+    if not tip and y.min() < -(TIP_FROM_TAPE + _BEHIND) * scale:
+        seen = (
+            f"there is no flange at y = {_mm(-TIP_FROM_TAPE * scale)}; all points lie within {_mm(np.ptp(z))} of height"
+        )
+        return [Finding(Fault.FLANGE, seen, "are y and z in one unit?", points[:0])]
     tread = float(np.interp(0.0, y[tip:], z[tip:]))
+    if tip and z[tip] - tread > HIGHEST * scale:
+        seen = f"the flange is {_mm(z[tip] - tread)} high, usually 25 to 40 mm"
+        return [Finding(Fault.FLANGE, seen, "are y and z in one unit and to one scale?", points[tip : tip + 1])]
     if abs(tread) > HEIGHT * scale:
         change = "larger" if tread > 0.0 else "smaller"
         seen = f"the tread at the tape circle lies at z = {_mm(tread)}; the wheel's radius becomes that much {change}"
@@ -243,14 +255,9 @@ def misplaced(points: Points, kind: Kind, unit: float = 0.0) -> tuple[str, str, 
     `unit` is that in which the file was read [m]. It tells which other one fits. The points are those of full size.
     """
     y, z = points.T
-    width, height = float(np.ptp(y)), float(np.ptp(z))
-    if width == 0.0:
-        cure = "which columns hold y and z? columns=(2, 3) chooses them"
-        return f"all points have y = {y[0]:g} m", cure, "y is the same in all points"
-    usual = NARROWEST <= width <= WIDEST
-    if NARROWEST <= height <= WIDEST and height > TALLER * width and (kind == "wheel" or not usual):
-        cure = "are its columns y and z swapped, or is it turned by 90°?"
-        return f"the profile is {height:g} m high and {width:g} m wide", cure, cure
+    width = float(np.ptp(y))
+    if fault := tall(points, kind):
+        return fault
     if not LEAST_WIDTH <= width <= WIDEST:
         seen = f"the profile is {width:g} m wide, outside the range [{LEAST_WIDTH:g}, {WIDEST:g}] of wheels and rails"
         return seen, f"set unit to {' or '.join(map(repr, _fitting(width, unit) or UNITS))}", "the unit is m"
@@ -268,6 +275,22 @@ def misplaced(points: Points, kind: Kind, unit: float = 0.0) -> tuple[str, str, 
     if kind == "wheel" and has_flange(points) and y[deepest] > y.mean():
         seen = f"the flange lies on the field side, at y = {y[deepest]:g} m"
         return seen, "set side to the other side", "y points to the field side: give -y[::-1] and z[::-1]"
+    return None
+
+
+def tall(points: Points, kind: Kind) -> tuple[str, str, str] | None:
+    """Return what is wrong with a profile that is much higher than wide, as `misplaced` does; its points need no order."""
+    width, height = (float(extent) for extent in np.ptp(points, axis=0))
+    seen = f"the profile is {height:g} m high and {width:g} m wide"
+    if width == 0.0:
+        cure = "which columns hold y and z? columns=(2, 3) chooses them"
+        return f"all points have y = {points[0, 0]:g} m", cure, "y is the same in all points"
+    if width <= WIDEST < height:
+        cure = "are its columns y and z in one unit?"
+        return seen, cure, cure
+    if NARROWEST <= height <= WIDEST and height > TALLER * width and (kind == "wheel" or width < NARROWEST):
+        cure = "are its columns y and z swapped or in different units, or is it turned by 90°?"
+        return seen, cure, cure
     return None
 
 
@@ -307,11 +330,29 @@ def _goes_on(before: Array, after: Array) -> bool:
 
 
 def turning(points: Points) -> int:
-    """Return the index at which a scan turns and comes back; 0 if it does not."""
+    """Return the index at which a scan turns and comes back over the way that it went; 0 if it does not."""
     far = int(np.argmax(np.hypot(*(points - points[0]).T)))
     back = len(points) - 1 - far
     returned = np.hypot(*(points[-1] - points[far])) > JUMP * np.hypot(*(points[far] - points[0]))
-    return far if returned and back > RETURN * len(points) else 0
+    if not (returned and back > RETURN * len(points)):
+        return 0
+    again = points[far :: max(1, back // 50)]
+    aside = np.sqrt([((points[: far + 1] - point) ** 2).sum(axis=1).min() for point in again])
+    if np.median(aside) > _ASIDE * np.hypot(*np.ptp(points, axis=0)):
+        return 0
+    most = len(points) // 4
+    near = range(max(_FOLD, far - most), min(len(points) - 1 - _FOLD, far + most))
+    apart = {k: _apart(points[k - _FOLD : k + _FOLD + 1]) for k in near}
+    fold = min(apart, key=apart.__getitem__, default=far)
+    return fold if apart.get(fold, 1.0) < 0.5 else far
+
+
+def _apart(points: Points) -> float:
+    """Return how far the points before the middle one lie from those after it, over their way from it: 0 at a fold."""
+    middle = len(points) // 2
+    before, after = points[:middle][::-1], points[middle + 1 :]
+    way = np.abs(before - points[middle]).sum() + np.abs(after - points[middle]).sum()
+    return float(np.abs(before - after).sum() / way) if way else 1.0
 
 
 def _length(points: Points) -> float:

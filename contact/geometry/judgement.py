@@ -75,8 +75,12 @@ def judged(
 ) -> Inspection:
     """Return what is wrong with the points of a file [m], and their profile."""
     measured, outline = repair.head_of(measured, kind, content.downwards, scale)
+    if not outline and (fault := inspection.tall(measured / scale, kind)):
+        raise ContactError(f"path = {str(path)!r}: {fault[0]}; {fault[1]}")
+    disorder = inspection.order(measured) if not outline or len(measured) < len(content.points) else []
+    if mended and not outline and any(finding.fault is Fault.UNSORTED for finding in disorder):  # of a whole rail?
+        measured, outline = repair.head_of(repair.joined(measured), kind, content.downwards, scale)
     uncut = bool(outline) and len(measured) == len(content.points)
-    disorder = [] if uncut else inspection.order(measured)
     findings = [*content.told, *outline, *disorder]
     if uncut or (disorder and not mended):
         return Inspection(path.name, kind, placed(measured, content, kind, path, zero, scale), tuple(findings), None)

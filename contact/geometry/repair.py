@@ -51,7 +51,7 @@ def in_order(points: Points) -> Points:
     """
     for finding in order(points):
         if finding.fault is Fault.UNSORTED:
-            points = _joined(points)
+            points = joined(points)
         elif finding.fault is Fault.SCANS:
             points = max(scans(points), key=len)
     turn = turning(points)
@@ -60,7 +60,7 @@ def in_order(points: Points) -> Points:
     return points
 
 
-def _joined(points: Points) -> Points:
+def joined(points: Points) -> Points:
     """Return the points in the order of their nearest neighbours, from the one with the least y."""
     left = points[np.lexsort(points.T[::-1])]
     chain = [left[0]]

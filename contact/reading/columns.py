@@ -31,6 +31,8 @@ _DATE = re.compile(r"\d{1,4}([-./])\d{1,2}\1\d{1,4}.*|\d{1,2}:\d{2}.*|\d{1,2}\.?
 #: What begins a remark; not the # of spreadsheets' #N/A and of 1.#QNAN.
 _REMARK = re.compile(r"[!%]|(?<!1\.)#(?!(?:N/A|NV|NUM|DIV/0|VALUE|REF|WERT|NAME|NULL|ZAHL|BEZUG)\b)")
 _QUOTED = re.compile(r'\s*"([^"]*)"\s*')
+_EXPONENT = re.compile(r"(?<=[\d.])[eEdDqQ](?=[+-]?\d)")
+_DECIMAL = re.compile(r"\d*[.,]\d")
 
 
 def number(word: str, comma: bool = False) -> float | None:
@@ -242,7 +244,13 @@ def _line(k: int, text: str, dialect: Dialect, columns: tuple[int, int]) -> Line
         return Line(k, text, (y, z), any(value is None for value in values), numbers)
     there = [cells[c] if c < len(cells) else "" for c in columns]
     nearly = all(_NEARLY.fullmatch(cell) and not _DATE.fullmatch(cell) for cell in there)
-    return Line(k, text, None, True, numbers, nearly)
+    return Line(k, text, None, True, numbers, nearly or _of_decimals(text))
+
+
+def _of_decimals(text: str) -> bool:
+    """Return whether a line without letters has two decimal points or more: numbers run together, or in brackets."""
+    bare = _EXPONENT.sub("", text.strip())
+    return not (any(map(str.isalpha, bare)) or _DATE.fullmatch(bare)) and len(_DECIMAL.findall(bare)) > 1
 
 
 def _start(lines: list[Line], where: str) -> int:

@@ -95,6 +95,28 @@ def test_of_several_lines_one_is_chosen_and_the_drawings_unit_is_told(tmp_path):
         near(profile.read(path, section=2, **RAIL), 1.2e-6)
 
 
+@pytest.mark.parametrize("axes", [(0, 2), (1, 2)])
+def test_a_section_that_rises_out_of_the_drawings_plane_is_refused(axes, tmp_path):
+    points = np.zeros((UPRIGHT.y.size, 3))
+    points[:, axes] = np.column_stack((1e3 * UPRIGHT.y, -1e3 * UPRIGHT.z))
+    path = drawn(tmp_path / "rail.dxf", lambda space: space.add_polyline3d(points))
+    with pytest.raises(ContactError, match="lines that rise by"):
+        profile.read(path, **RAIL)
+
+
+def test_joined_takes_all_lines_of_a_drawing_however_many(tmp_path):
+    points = np.column_stack((1e3 * UPRIGHT.y, -1e3 * UPRIGHT.z))
+
+    def add(space):
+        for part in np.array_split(points, 20):  # with gaps of .25 mm
+            space.add_lwpolyline(part)
+
+    path = drawn(tmp_path / "rail.dxf", add)
+    with pytest.raises(ContactError, match=r"holds 20 lists of points: 1 line .* and 8 more; set section"):
+        profile.read(path, **RAIL)
+    near(profile.read(path, section="joined", **RAIL), 1e-6)
+
+
 def test_a_whole_rail_in_a_drawing_is_cut_to_its_head(tmp_path):
     half = [(36.6, 39.5), (20, 48), (8.25, 60), (8.25, 140), (30, 155), (75, 160.5), (75, 172)]
 
@@ -142,6 +164,12 @@ def test_a_sheet_of_a_workbook_is_read_with_false_rows_left_out(tmp_path):
     with pytest.raises(ContactError, match="2 lists of points: 1 sheet 'left' with 593 points"):
         profile.read(path, **COLUMNS)
     same(profile.read(path, section=2, rows=(1, 0), columns=(1, 2), **COLUMNS), WHEEL, 1e-12)
+
+
+def test_a_column_of_a_workbook_that_counts_the_rows_is_passed_over(tmp_path):
+    rows = [[k, 1e3 * y, 1e3 * z] for k, (y, z) in enumerate(zip(WHEEL.y, WHEEL.z, strict=True), 1)]
+    with pytest.warns(ProfileWarning, match="the first column counts the rows"):
+        same(profile.read(workbook(tmp_path / "wheel.xlsx", ("scan", rows)), **COLUMNS), WHEEL, 1e-12)
 
 
 @pytest.mark.parametrize(("name", "module"), [("dxf", "ezdxf"), ("xlsx", "openpyxl")])

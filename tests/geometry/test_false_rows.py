@@ -136,6 +136,11 @@ def test_numbers_above_words_are_a_heading_that_is_told(tmp_path):
         assert profile.read(path, **COLUMNS).y.size == WHEEL.y.size
 
 
+def _upwards(rows):
+    """Return the rows with blanks between columns, and with z up, so that most of them have a minus sign there."""
+    return [f"{y} -{z}".replace("--", "").replace(" -", ";-") for y, z in (row.split(";") for row in rows)]
+
+
 @pytest.mark.parametrize(
     ("change", "said"),
     [
@@ -144,6 +149,11 @@ def test_numbers_above_words_are_a_heading_that_is_told(tmp_path):
         (lambda rows: [*rows[:50], "second part", *rows[50:]], "line 51: 'second part' is not a point"),
         (lambda rows: [row.replace("-", "~") for row in rows], "line 1: '~69.0000;15.8438' is not a point|~69"),
         (lambda rows: [f"{row.replace(';', 'mm;')}mm" for row in rows], "'-69.0000mm;15.8438mm'"),
+        (lambda rows: [row.replace(";-", "-") for row in _upwards(rows)], "line 1: '-69.0000-15.8438' is not a point"),
+        (
+            lambda rows: [*(f"[{row}]" for row in rows[:200]), *rows[200:]],
+            r"line 1: '\[-69\.0000;15\.8438\]' is not a point",
+        ),
     ],
 )
 def test_a_line_with_digits_that_is_no_point_is_named_with_its_content(change, said, tmp_path):

@@ -144,6 +144,36 @@ def test_a_wrong_unit_in_a_simpack_header_is_detected_and_corrected_by_the_optio
     same(profile.read(path, unit="mm"), WHEEL)
 
 
+@pytest.mark.parametrize(
+    ("shape", "unit", "of_z", "said"),
+    [
+        (WHEEL, "m", 1e3, r"is 30\.6357 m high and 0\.129 m wide; are its columns y and z in one unit"),
+        (RAIL, "m", 1e3, r"is 27\.2852 m high and 0\.07317\d* m wide; are its columns y and z in one unit"),
+        (WHEEL, "mm", 1e-3, r"flange: there is no flange at y = -55 mm; all points lie within 0\.0306 mm of height"),
+        (WHEEL, "mm", 1 / 25.4, r"flange: there is no flange at y = -55 mm; .*; are y and z in one unit"),
+        (WHEEL, "mm", 2.0, "flange: the flange is 56 mm high, usually 25 to 40 mm"),
+    ],
+)
+def test_y_and_z_in_different_units_or_to_different_scales_are_named(tmp_path, shape, unit, of_z, said):
+    size = 1.0 if unit == "m" else 1e3
+    path = tmp_path / "drawn.txt"
+    path.write_text(table(size * shape.y, size * of_z * shape.z))
+    if size == 1.0:
+        with pytest.raises(ContactError, match=said):
+            profile.read(path, kind=shape.kind, unit=unit, side="right")
+    else:
+        with pytest.warns(ProfileWarning, match=said):
+            profile.read(path, kind=shape.kind, unit=unit, side="right")
+
+
+def test_bounds_of_simpack_that_leave_no_point_are_named(tmp_path):
+    text = SIMPACK.format(type=1, shift=0, rotate=0, mirror=0, per_metre=1.0, points=table(WHEEL.y, WHEEL.z))
+    path = tmp_path / "wheel.prw"
+    path.write_text(text.replace("  point.begin", "  bound.y.min = 5\n  bound.y.max = 6\n  point.begin"))
+    with pytest.raises(ContactError, match=r"bound\.y from 5 to 6 leaves no point"):
+        profile.read(path)
+
+
 @pytest.mark.parametrize("up", [1.0, -1.0])
 def test_a_flange_on_the_field_side_is_detected_and_corrected_by_the_option(tmp_path, up):
     path = tmp_path / "wheel.txt"

@@ -70,6 +70,18 @@ def test_repeated_and_backward_scans_are_named_and_one_is_kept_on_request(tmp_pa
     assert distance(repaired) < 1e-6
 
 
+@pytest.mark.parametrize("backwards", [False, True])
+def test_a_rail_scanned_there_and_back_has_each_side_once(tmp_path, backwards):
+    """The point farthest from the start is no end of a rail: its sides are steep."""
+    points = np.column_stack((RAIL.y, RAIL.z))[:: -1 if backwards else 1]
+    path = wheel_file(tmp_path / "rail.txt", *np.concatenate((points, points[::-1])).T)
+    with pytest.raises(ContactError, match="backward scan: after 443 of 886 points"):
+        profile.read(path, **(COLUMNS | {"kind": "rail"}))
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        assert profile.read(path, repair=True, **(COLUMNS | {"kind": "rail"})).y.size == RAIL.y.size
+
+
 def test_spikes_and_back_steps_are_named_and_dropped_on_request(tmp_path):
     z, rows = WHEEL.z.copy(), np.arange(WHEEL.y.size)
     z[[350, 450]] += [1e-4, -6e-5]

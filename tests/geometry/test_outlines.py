@@ -48,6 +48,15 @@ def test_the_outline_of_a_rail_is_cut_to_its_head_from_every_start_and_either_wa
         assert np.abs(np.interp(UPRIGHT.y, found.y, found.z) - UPRIGHT.z)[np.abs(UPRIGHT.y) < 0.03].max() < 2e-6
 
 
+def test_the_outline_of_a_rail_in_unsorted_rows_is_sorted_and_cut(tmp_path):
+    path, points = tmp_path / "rail.txt", section(1.0)
+    path.write_text(table(*points[np.random.default_rng(1).permutation(len(points))].T))
+    with pytest.warns(ProfileWarning, match="closed outline: .* 172 mm high; kept is its head"):
+        found = profile.read(path, repair=True, **(COLUMNS | {"kind": "rail"}))
+    assert np.ptp(found.y) == pytest.approx(0.0732, abs=2e-4)
+    assert np.ptp(found.z) < 0.04
+
+
 def test_an_outline_that_is_open_at_the_foot_is_cut_too(tmp_path):
     points = section()[60:-60]
     path = tmp_path / "section.csv"
