@@ -46,7 +46,7 @@ class Case:
     fresh: frozenset[str] = field(repr=False)
     file: Path = field(compare=False)
     line: int = field(compare=False)
-    notes: tuple[str, ...] = ()
+    notes: tuple[str, ...] = field(default=(), compare=False)
 
     def __getitem__(self, name: str) -> Any:
         """Return a value in force [SI]. A ContactError names the case and what is missing."""

@@ -49,7 +49,7 @@ class Field:
         """The allowed range, in words."""
         if self.kind == "s":
             return "a name in single quotes"
-        kind = {"i": "an integer", "d": "a number", "a": "an angle"}[self.kind]
+        kind = {"i": "an integer", "d": "a number", "a": "an angle like 90d or 1.5708"}[self.kind]
         if math.isinf(self.low) and math.isinf(self.high):
             return kind
         left, right = ("]" if self.above or math.isinf(self.low) else "["), ("[" if math.isinf(self.high) else "]")

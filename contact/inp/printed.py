@@ -6,9 +6,10 @@ import math
 import os
 import re
 from dataclasses import dataclass, field
-from pathlib import Path
 
 from contact.errors import ContactError
+from contact.inp.words import LARGEST_FILE
+from contact.reading.text import lines_of
 
 _NUMBER = re.compile(r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eEdD][+-]?\d+|[+-]\d{2,3})?|\*{3,}|NaN|[+-]?Infinity")
 _CASE = re.compile(
@@ -88,10 +89,7 @@ def read_printed(path: str | os.PathLike[str]) -> list[Printed]:
     ContactError
         If the file cannot be read or has no case.
     """
-    try:
-        lines = Path(path).read_text(encoding="latin-1").split("\n")
-    except OSError as error:
-        raise ContactError(f"{path} cannot be read: {error.strerror}") from None
+    lines = lines_of(path, "path", LARGEST_FILE)
     cases: list[Printed] = []
     for k, line in enumerate(lines):
         match = _CASE.match(line)

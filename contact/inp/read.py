@@ -7,6 +7,7 @@ from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
+from contact.errors import warn
 from contact.inp.case import Case
 from contact.inp.controls import WORDS, Digit
 from contact.inp.fields import Array, Block, Field, Group, d, i, maybe
@@ -50,9 +51,18 @@ def read(path: str | os.PathLike[str]) -> list[Case]:
     ------
     ContactError
         For a file that cannot be read, or does not follow the format: it names file, line, name, value and what is allowed.
+
+    Warns
+    -----
+    PlausibilityWarning
+        For digits that a first case changes, and numbers that stand behind the last value of their line: CONTACT takes a
+        decimal comma for a blank, so that all values behind it move by one.
     """
-    file = Path(path)
-    return _Reader(file).cases()
+    cases = _Reader(Path(path)).cases()
+    if noted := [case for case in cases if case.notes]:
+        more = sum(len(case.notes) for case in noted) - 1
+        warn(f"{noted[0].place}: {noted[0].notes[0]}" + (f", and {more} more; Case.notes has all" if more else ""))
+    return cases
 
 
 class _Reader:
@@ -119,6 +129,8 @@ class _Reader:
         values = {name: value for name, value in now.items() if name not in digits}
         at.update(fresh)
         self.check(module, digits, values)
+        notes += self.lines.unread
+        self.lines.unread = []
         self.memory[key] = values, at
         shared = (0, 0) if element == 0 else (element, problem)
         number = self.count[shared] = self.count.get(shared, 0) + 1
@@ -223,8 +235,9 @@ class _Reader:
                 value = Path(os.path.normpath(self.file.parent / str(value)))
             now[field.name] = value
             fresh[field.name] = self.lines.number
-            if field.name == "SPINYO" and not there:
-                now["SPINXO"] = 0.0  # one of both alone does not count
+            if field.name == "SPINYO" and not there and now["SPINXO"]:
+                self.lines.unread.append(f"line {self.lines.number}: SPINXO without SPINYO is not read")
+                now["SPINXO"] = 0.0
             if field.name == "FKIN" and now["L"] == 0 and abs(value - now["FSTAT"]) > 1e-3 * now["FSTAT"]:
                 self.lines.refuse(f"FKIN = {value:g} with L = 0; allowed: FSTAT = {now['FSTAT']:g}")
             if field.name == "IPOTCN" and value not in POTENTIAL:

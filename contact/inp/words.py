@@ -10,6 +10,7 @@ from typing import Any, NoReturn
 
 from contact.errors import ContactError
 from contact.inp.fields import Field, Now
+from contact.reading.text import lines_of
 
 #: CONTACT reads this many characters of a line.
 LINE_LENGTH = 256
@@ -73,23 +74,22 @@ class Lines:
 
     def __init__(self, path: Path) -> None:
         self.path = path
-        try:
-            if path.stat().st_size > LARGEST_FILE:
-                raise ContactError(f"{path} has {path.stat().st_size} bytes; allowed: {LARGEST_FILE}")
-            text = path.read_text(encoding="latin-1")
-        except OSError as error:
-            raise ContactError(f"{path} cannot be read: {error.strerror}") from None
-        self._lines = text.split("\n")
+        self._lines = lines_of(path, "path", LARGEST_FILE)
         #: Number of the line that was read last.
         self.number = 0
+        #: Numbers that stood behind the last value of their line, for `notes` of a case.
+        self.unread: list[str] = []
         self._rest: list[str] = []
+        self._last = ""
 
     def refuse(self, message: str, line: int | None = None) -> NoReturn:
         """Raise a ContactError that names file and line, that of the last word by default."""
         raise ContactError(f"{self.path}, line {self.number if line is None else line}: {message}")
 
     def new_group(self) -> None:
-        """Skip the rest of the line."""
+        """Skip the rest of the line: a label, or numbers that are told."""
+        if self._rest and _NUMBER.fullmatch(self._rest[0]):
+            self.unread.append(f"line {self.number}: {self._rest[0]} behind {self._last} is not read")
         self._rest = []
 
     def _next(self, name: str) -> None:
@@ -118,8 +118,9 @@ class Lines:
             try:
                 value = CONVERT[field.kind](self._rest[0])
             except ValueError:
-                self.refuse(f"{field.name} = {self._rest[0]!r} is outside the allowed range, {field.allowed}")
-        self._rest = self._rest[1:]
+                hint = "; % begins a comment" if self._rest[0][0] in "#!;/*" else ""
+                self.refuse(f"{field.name} = {self._rest[0]!r} is outside the allowed range, {field.allowed}{hint}")
+        self._rest, self._last = self._rest[1:], field.name
         if isinstance(value, str):
             return True, value
         if not (field.low < value if field.above else field.low <= value) or value > field.high:
@@ -132,12 +133,14 @@ class Lines:
         self.new_group()
         while len(values) < count:
             self._next(name)
-            for word in self._rest[: count - len(values)]:
+            words, self._rest = self._rest[: count - len(values)], self._rest[count - len(values) :]
+            for word in words:
                 try:
                     number = CONVERT[kind](word)
                 except ValueError:
                     self.refuse(f"{name}({len(values) + 1}) = {word!r} is no number; {count} numbers are needed")
                 values.append(float(number) * factors[len(values) % len(factors)])
+        self._last = name
         self.new_group()
         return tuple(values)
 

@@ -48,7 +48,7 @@ def write(cases: Case | Sequence[Case], path: str | os.PathLike[str]) -> None:
     if cases and cases[-1].digits["R"] in (0, 2):
         raise ContactError(f"{cases[-1].place}: R = {cases[-1].digits['R']} of the last case must be 1 or 3")
     parts.append(" 0   MODULE")
-    file.write_text("\n".join(parts) + "\n", encoding="latin-1")
+    file.write_text("\n".join(parts) + "\n", encoding="utf-8")
 
 
 def complete(case: Case) -> Case:

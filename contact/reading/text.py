@@ -41,6 +41,7 @@ _MAGIC = (
     (b"<?xml", "an XML file", "write its numbers as text"),
     (b"<svg", "an SVG drawing", "save it as .dxf"),
 )
+_STRANGE = re.compile("[\\x00-\\x08\\x0e-\\x19\\x1b-\\x1f]")  # control characters that no text has
 _MARKS = (
     (codecs.BOM_UTF8, "utf-8-sig"),
     (codecs.BOM_UTF32_LE, "utf-32"),
@@ -114,7 +115,7 @@ def decoded(given: bytes, where: str) -> str:
         text = given.decode(encoding)
     except UnicodeDecodeError as error:
         raise ContactError(f"{where} is no text in {encoding.upper()}: {error.reason} at byte {error.start}") from None
-    strange = sum(letter < " " and letter not in "\t\n\r\x0b\x0c\x1a" for letter in text)
+    strange = len(_STRANGE.findall(text))
     if "\0" in text or strange > 0.02 * len(text):
         raise ContactError(f"{where} is a binary file, no text")
     return text.removeprefix("\ufeff").rstrip("\x1a")

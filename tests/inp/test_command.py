@@ -59,7 +59,7 @@ def test_check_reads_and_tells_what_is_refused(case, tmp_path):
         (("--cases", "9"), "has no case of the file; allowed: 1 to 2"),
         (("--out", "rows.txt"), "the ending '.txt' is unknown"),
         (("--contact-mat", "nowhere"), "is not a folder"),
-        (("--compare", "nowhere.out"), "cannot be read"),
+        (("--compare", "nowhere.out"), "is missing"),
     ],
 )
 def test_wrong_options_end_in_one_line(case, words, message):

@@ -5,6 +5,7 @@ import math
 import pytest
 
 from contact import ContactError, inp
+from contact.errors import PlausibilityWarning
 from contact.inp.controls import WORDS
 from contact.inp.words import angle, integer, real, split
 from tests import damaged
@@ -107,6 +108,12 @@ def test_a_single_case_is_written_with_all_that_it_keeps(tmp_path):
     [
         ("203100     P", "209100     P", 3, "T = 9 .TANG in 209100.; allowed: 0, 1, 2, 3"),
         ("203100     P", "9203100     P", 3, "too many digits"),
+        (
+            "203100     P",
+            "# 203100     P",
+            3,
+            "PBTNFS = '#' is outside the allowed range, an integer; % begins a comment",
+        ),
         ("022020     L", "122020     L", 4, "L = 1 keeps what no case before has given"),
         ("82000.  -.001", "82000.  nan", 7, "CKSI = 'nan' is outside the allowed range, a number"),
         ("0.300   0.300", "0.300   0.200", 8, "FKIN = 0.2 with L = 0"),
@@ -142,10 +149,36 @@ def test_two_hundred_damaged_files_end_in_one_line_or_are_read(tmp_path):
 
 
 def test_a_missing_file_is_an_error_of_one_line(tmp_path):
-    with pytest.raises(ContactError, match="cannot be read"):
+    with pytest.raises(ContactError, match="is missing"):
         inp.read(tmp_path / "none.inp")
-    with pytest.raises(ContactError, match="cannot be read"):
+    with pytest.raises(ContactError, match="is missing"):
         inp.read_printed(tmp_path / "none.out")
+
+
+@pytest.mark.parametrize("encoding", ["utf-8", "utf-8-sig", "utf-16", "cp1252"])
+def test_files_of_every_editor_are_read_with_their_names(tmp_path, encoding):
+    path = tmp_path / "case.inp"
+    path.write_bytes(files.PAIR.replace("rail.prr", "Schläuche/Räd.prr").encode(encoding))
+    case = inp.read(path)[0]
+    assert case["RFNAME"] == tmp_path / "profiles" / "Schläuche" / "Räd.prr"
+    inp.write(case, tmp_path / "again.inp")
+    assert inp.read(tmp_path / "again.inp")[0]["RFNAME"] == case["RFNAME"]
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "said"),
+    [
+        ("82000.  -.001", "82000,0  -.001", "line 7: SPINXO without SPINYO is not read"),
+        ("82000.  -.001", "82000,0  -0,001,0", "line 7: .2-03 behind SPINYO is not read"),
+        ("0.300   0.300", "0.300   0.300  0.4", "line 8: 0.4 behind FKIN is not read"),
+    ],
+)
+def test_numbers_behind_the_last_value_of_a_line_are_told(tmp_path, old, new, said):
+    """CONTACT takes a decimal comma for a blank: all values behind it move by one, and the last is thrown away."""
+    assert old in files.CONTACT
+    with pytest.warns(PlausibilityWarning, match=said):
+        case = read(tmp_path, files.CONTACT.replace(old, new, 1))[0]
+    assert len(case.notes) == 1
 
 
 def test_every_digit_has_its_meaning_in_both_modules():
