@@ -41,13 +41,17 @@ def test_solution_has_the_fields_of_the_contract(ellipse):
 
 
 @pytest.mark.parametrize("arguments", [{"load": 0.0}, {"approach": 0.0}, {"approach": -1e-3}])
-@pytest.mark.parametrize("normal", NORMAL)
-def test_no_contact_is_a_valid_result(ellipse, arguments, normal):
-    sol = contact.solve(ellipse, contact.Creepage(1e-3, 1e-3, 1.0), normal=normal, **arguments)
+@pytest.mark.parametrize(
+    ("normal", "tangential"),
+    [*((name, "fastrip_mapped") for name in NORMAL), ("analyn", "halfspace"), ("halfspace", "halfspace")],
+)
+def test_no_contact_is_a_valid_result(ellipse, arguments, normal, tangential):
+    sol = contact.solve(ellipse, contact.Creepage(1e-3, 1e-3, 1.0), normal=normal, tangential=tangential, **arguments)
     assert sol.status is contact.Status.NO_CONTACT
     assert (sol.Fx, sol.Fy, sol.Mz, sol.N, sol.area, sol.max_pressure, sol.slip_ratio) == (0,) * 7
     assert sol.p.size == 0
     assert sol.pressure(0.0, 0.0) == 0.0
+    assert sol.tangential == tangential
 
 
 @pytest.mark.parametrize("tangential", [n for n, m in contact.methods().batched.tangential.items() if m.saturates])

@@ -3,6 +3,7 @@
 import ast
 import re
 from collections.abc import Iterator
+from functools import cache
 from graphlib import CycleError, TopologicalSorter
 from pathlib import Path
 
@@ -22,15 +23,21 @@ def parts_of(path: Path) -> tuple[str, ...]:
     return parts[1:] if parts[0] in ("fmu_src", "models") else parts
 
 
-def imports(path: Path) -> Iterator[str]:
-    """Yield the full names that a file imports, `a.b.c` for `from a.b import c`, in functions too."""
-    yield from imported(ast.parse(path.read_text(encoding="utf-8")), path)
+@cache
+def tree(path: Path) -> ast.Module:
+    return ast.parse(path.read_text(encoding="utf-8"))
 
 
-def imported(tree: ast.AST, path: Path) -> Iterator[str]:
+@cache
+def imports(path: Path) -> tuple[str, ...]:
+    """Return the full names that a file imports, `a.b.c` for `from a.b import c`, in functions too."""
+    return tuple(imported(tree(path), path))
+
+
+def imported(part: ast.AST, path: Path) -> Iterator[str]:
     """Yield the full names that a part of the file `path` imports."""
     package = parts_of(path)[:-1]
-    for node in ast.walk(tree):
+    for node in ast.walk(part):
         if isinstance(node, ast.Import):
             yield from (alias.name for alias in node.names)
         elif isinstance(node, ast.ImportFrom):
@@ -41,9 +48,8 @@ def imported(tree: ast.AST, path: Path) -> Iterator[str]:
 
 def strings(path: Path) -> Iterator[str]:
     """Yield all strings of a file except docstrings and other expression statements."""
-    tree = ast.parse(path.read_text(encoding="utf-8"))
-    alone = {id(node.value) for node in ast.walk(tree) if isinstance(node, ast.Expr)}
-    for node in ast.walk(tree):
+    alone = {id(node.value) for node in ast.walk(tree(path)) if isinstance(node, ast.Expr)}
+    for node in ast.walk(tree(path)):
         if isinstance(node, ast.Constant) and isinstance(node.value, str) and id(node) not in alone:
             yield node.value
 
@@ -102,7 +108,7 @@ def test_private_modules_of_contact_stay_in_contact():
 def counted_names(path: Path) -> list[str]:
     """Return the names to which a file assigns a list of numbers, as in ``A, B, C = range(3)``."""
     names: list[str] = []
-    for node in ast.parse(path.read_text(encoding="utf-8")).body:
+    for node in tree(path).body:
         if not (isinstance(node, ast.Assign) and isinstance(node.targets[0], ast.Tuple)):
             continue
         value = node.value
@@ -161,12 +167,12 @@ def imports_to_run(path: Path) -> Iterator[str]:
     """Yield what a file imports, in functions too and by strings, but not for types alone."""
     for_types = {
         name
-        for node in ast.parse(path.read_text(encoding="utf-8")).body
+        for node in tree(path).body
         if isinstance(node, ast.If) and ast.unparse(node.test) == "TYPE_CHECKING"
         for name in imported(node, path)
     }
     yield from (name for name in imports(path) if name not in for_types)
-    for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+    for node in ast.walk(tree(path)):
         if isinstance(node, ast.Call) and ast.unparse(node.func).endswith("import_module"):
             yield from (word.value for word in ast.walk(node) if isinstance(word, ast.Constant))
 
@@ -249,7 +255,7 @@ def test_no_kernel_indexes_a_tuple_by_enumerate_or_zip():
     calls = {
         f"{path.relative_to(ROOT)}:{node.lineno}"
         for path in sources("contact/kernels")
-        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8")))
+        for node in ast.walk(tree(path))
         if isinstance(node, ast.Call) and isinstance(node.func, ast.Name) and node.func.id in ("enumerate", "zip")
     }
     assert calls == set()

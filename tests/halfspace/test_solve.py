@@ -71,16 +71,6 @@ def test_resolution_does_not_ripple(ellipse):
         assert np.hypot(one.Fx - two.Fx, one.Fy - two.Fy) < 0.01 * 0.3 * 8e4
 
 
-@pytest.mark.parametrize("given", [{"load": 0.0}, {"approach": 0.0}, {"approach": -1e-3}])
-@pytest.mark.parametrize("normal", ["halfspace", "analyn"])
-def test_no_contact_is_a_valid_result(ellipse, given, normal):
-    sol = contact.solve(ellipse, contact.Creepage(1e-3, 1e-3, 1.0), normal=normal, tangential="halfspace", **given)
-    assert sol.status is contact.Status.NO_CONTACT
-    assert (sol.Fx, sol.Fy, sol.Mz, sol.N, sol.area, sol.max_pressure, sol.slip_ratio) == (0,) * 7
-    assert sol.pressure(0.0, 0.0) == 0.0
-    assert sol.tangential == "halfspace"
-
-
 def test_a_patch_at_the_end_of_the_data_is_out_of_range():
     y = np.linspace(-2e-3, 10e-3, 121)
     cut = contact.Separation(y, 2.0 * y**2, 1.0)

@@ -5,10 +5,9 @@ import dataclasses
 import numpy as np
 import pytest
 
-from contact.errors import ContactError
 from contact.geometry import profile
 from contact_models.vehicle.declared import Damper, Rail, read
-from contact_models.vehicle.kernels.layout import Axis, Book, Sum
+from contact_models.vehicle.kernels.layout import Axis, Book
 from contact_models.vehicle.spectra import Irregularities
 from contact_models.vehicle.track import Curve, Friction, Track
 from tests.vehicle.parts import FAST, PACED, simulation
@@ -62,17 +61,6 @@ def test_left_curve_is_the_mirror_image_of_the_right_one(options):
     np.testing.assert_allclose(sims[0].wheels["lateral"][0::2], -sims[1].wheels["lateral"][1::2], atol=1e-2)
 
 
-def test_half_the_step_gives_the_same_motion():
-    found = []
-    for h in (4e-4, 2e-4):
-        sim = simulation("manchester", curve("right"), speed=15.0, length=40.0)
-        sim.advance(h, round(2.2 / h))
-        found.append((sim.state.q.copy(), sim.state.sums[:, 1:3] / sim.state.sums[:, :1]))
-    (q, forces), (q_half, forces_half) = found
-    assert q[:, Axis.Y] == pytest.approx(q_half[:, Axis.Y], abs=1e-4)
-    assert forces == pytest.approx(forces_half, abs=100.0)
-
-
 def test_friction_along_the_track_and_on_one_side():
     """Without friction on the left rail its creep forces vanish."""
     track = Track(friction=Friction(at=(3.0, 4.0), right=(1.0, 0.5), left=(1.0, 0.0)))
@@ -124,24 +112,6 @@ def test_a_rigid_track_has_no_motion_of_the_rails():
     sim.advance(2e-4, 1000)
     assert not sim.state.rails.any()
     assert np.abs(sim.state.q[1, Axis.Y]) > 1e-5
-
-
-def test_a_torque_drives_the_axle_and_its_work_is_in_the_balance():
-    wheelset = read("wheelset")
-    driven = dataclasses.replace(wheelset, wheelsets=(dataclasses.replace(wheelset.wheelsets[0], torque=2000.0),))
-    sim = simulation(driven, length=30.0)
-    sim.advance(2e-4, 5000)
-    pulled = sim.state.sums[:, Sum.LONGITUDINAL].sum() / 5000.0  # the axle swings on its springs, undamped
-    assert pulled == pytest.approx(2000.0 / 0.46, rel=0.02)
-    assert sim.state.books[Book.TORQUE] == pytest.approx(2000.0 / 0.46 * 20.0, rel=0.02)
-    assert abs(residual(sim)) < 5e-3
-
-
-def test_a_wheel_that_leaves_its_rail_is_named():
-    sim = simulation("wheelset")
-    sim.state.q[1, Axis.Y] = 0.2
-    with pytest.raises(ContactError, match="wheel of wheelset has left its rail"):
-        sim.advance(2e-4)
 
 
 def test_profiles_of_the_wheels_may_differ():
