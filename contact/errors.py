@@ -8,6 +8,7 @@ import warnings
 from collections.abc import Callable, Iterable, Iterator
 from contextvars import ContextVar
 from difflib import get_close_matches
+from types import NoneType, UnionType
 from typing import Any, TypeVar
 
 import numpy as np
@@ -169,6 +170,20 @@ def require_integer(name: str, value: object, minimum: float = -math.inf, maximu
             f"{name} = {value!r} is not an integer in the allowed range {left}{minimum:g}, {maximum:g}{right}"
         )
     return number
+
+
+def require_kind(name: str, value: object, kind: type | UnionType) -> None:
+    """Raise a ContactError if `value` is not of a kind: a class, or a class or None."""
+    if not isinstance(value, kind):
+        named = next((one for one in getattr(kind, "__args__", ()) if one is not NoneType), kind)
+        raise ContactError(f"{name} = {value!r} is not a {named.__module__}.{getattr(named, '__name__', '')}")
+
+
+def require_flag(name: str, value: object) -> bool:
+    """Return True or False, also of numpy. A ContactError for any other value: a text like "no" counts as true in Python."""
+    if type(value).__name__ not in ("bool", "bool_"):
+        raise ContactError(f"{name} = {value!r} is neither True nor False")
+    return bool(value)
 
 
 def ratio(name: str, value: object) -> object:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from typing import Any
 
@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from contact.arrays import Array, require_numbers
 from contact.core import pack
-from contact.errors import ContactError
+from contact.errors import ContactError, require_flag, require_integer
 from contact.friction import Friction
 from contact.inputs.creepage import Creepage
 from contact.inputs.material import STEEL, Material
@@ -101,7 +101,8 @@ def forces(
     >>> found.Fx.round().tolist()
     [0.0, -11844.0, -19292.0]
     """
-    separations = [separation] if isinstance(separation, Separation) else list(separation)
+    given = [separation] if isinstance(separation, Separation) else separation
+    separations = list(given) if isinstance(given, Iterable) else []
     if not separations or not all(isinstance(s, Separation) for s in separations):
         raise ContactError("separation is empty or holds an object that is not a contact.Separation")
     creepages = _creepages(creepage)
@@ -132,15 +133,15 @@ def forces(
         ) from None
     n_strips, n_elements = require_resolution(n_strips, n_elements)
     method, rolling = (lookup(*kind, batched=True) for kind in (("normal", normal), ("tangential", tangential)))
-    if conformal:
+    if require_flag("conformal", conformal):
         require_conformal(rolling)
     shape, count = amount.shape, amount.size
     bounds = np.cumsum([0, *(s.y.size for s in separations)])
     samples = Samples(*(np.concatenate(column) for column in zip(*(s.samples for s in separations), strict=True)))
     which = np.array(which).ravel()  # a copy, because it is broadcast
 
-    doubt_alike(material.coupling)
     cases = prepared_cases(count, method, rolling, material, conformal=conformal)
+    doubt_alike(material.coupling)
     set_surface(cases, surface or Friction(0.0), V.ravel())
     cases["load_kind"] = LoadKind.LOAD if load is not None else LoadKind.APPROACH
     cases["rolling"] = np.array([s.rolling for s in separations])[which]
@@ -170,7 +171,8 @@ def forces(
             arrays.space.memory[0] = 0.0
             solve_cases(first, min(first + _CHUNK, count), samples, bounds, which, cases, arrays, results)
 
-    pieces = min(threads or cores(), -(-count // _CHUNK))
+    threads = cores() if threads is None else require_integer("threads", threads, 0) or cores()
+    pieces = min(threads, -(-count // _CHUNK))
     if pieces <= 1:
         work(range(0, count, _CHUNK))
     else:

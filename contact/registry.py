@@ -317,7 +317,7 @@ def lookup(kind: str, name: str, *, batched: bool = False) -> Method:
         For any other name. The message lists the allowed names.
     """
     known: MappingProxyType[str, Method] = getattr(_METHODS.batched if batched else _METHODS, kind)
-    if name not in known:
-        what = "offered here, only by contact.solve" if name in getattr(_METHODS, kind) else "a registered method"
+    if not isinstance(name, str) or name not in known:
+        what = "offered here, only by contact.solve" if name in list(getattr(_METHODS, kind)) else "a registered method"
         raise ContactError(f"{kind} = {name!r} is not {what}{suggestion(name, known)}; allowed: {', '.join(known)}")
     return known[name]

@@ -10,7 +10,7 @@ from functools import partial
 from typing import Any
 
 from contact.arrays import Array
-from contact.errors import ContactError, require_number, require_pair
+from contact.errors import ContactError, require_flag, require_kind, require_number, require_pair
 from contact.friction import Friction, as_friction
 from contact.given_force import solve_for_force, wanted_force
 from contact.halfspace import linear
@@ -147,6 +147,8 @@ def solve(
     >>> round(solution.Fx), round(solution.max_pressure / 1e6), solution.status
     (-11844, 893, <Status.OK: 1>)
     """
+    require_kind("material", material, Material)
+    conformal = require_flag("conformal", conformal)
     method, rolling = lookup("normal", normal), lookup("tangential", tangential)
     usual = (_N_OF_HALF_SPACE,) * 2 if method.elementwise else (N_STRIPS.usual, N_ELEMENTS.usual)
     size = require_resolution(

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from contact.core import pack
-from contact.errors import ContactError, require_integer, require_number
+from contact.errors import ContactError, require_flag, require_integer, require_number
 from contact.friction import Friction, as_friction
 from contact.given_force import as_numbers, wanted_force
 from contact.inputs.creepage import Creepage, as_creepage
@@ -127,9 +127,9 @@ class Solver(OwnsArrays):
         self.normal = lookup("normal", normal, batched=True)
         self.tangential = lookup("tangential", tangential, batched=True)
         self.n_strips, self.n_elements = require_resolution(n_strips, n_elements)
+        self.material, self.conformal = material, require_flag("conformal", conformal)
         if conformal:
             require_conformal(self.tangential)
-        self.material, self.conformal = material, bool(conformal)
         self.max_iterations = ITERATIONS.require("max_iterations", max_iterations)
         self.doubted = False  # whether the arguments of a call were judged
         self.told: set[str] = set()  # for what there was a ModelWarning
@@ -313,6 +313,8 @@ class Solver(OwnsArrays):
         creepage, amount = as_creepage(creepage), require_amount(load, approach)
         wanted = None if force is None else as_numbers(wanted_force(force))
         friction, speed = surface
+        if speed is not None and type(speed) is not float:
+            speed = require_number("speed", speed, 0.0)
         friction = self._given if friction is None or self._is_given(friction) else friction
         if friction is not self._given or (speed is not None and speed != self._speed):
             within(self.set_surface)(friction, self._speed if speed is None else speed)

@@ -187,7 +187,7 @@ REFUSED: list[tuple[Callable[[], Any], str]] = [
     # a wheel on its rail
     (lambda: WheelRailPair(WHEEL), r"pair = Profile.* is no contact.geometry.wheelset.Pair; make one"),
     (lambda: WheelRailPair(None), r"pair = None is no"),
-    (lambda: WheelRailPair(PAIR, material=2e11), r"material = .* is no contact.inputs.material.Material"),
+    (lambda: WheelRailPair(PAIR, material=2e11), r"material = .* is not a contact.inputs.material.Material"),
     (lambda: WheelRailPair(PAIR, damage="archard"), "damage = 'archard' is no"),
     (lambda: WheelRailPair(PAIR, normal="none"), "normal = 'none' is not a registered method"),
     (lambda: WheelRailPair(PAIR, n_strips=3), "n_strips = 3 is not"),

@@ -32,7 +32,7 @@ from typing import Any, Literal
 
 import numpy as np
 
-from contact.errors import ContactError, ProfileWarning, require_number
+from contact.errors import ContactError, ProfileWarning, require_flag, require_number
 from contact.geometry import drawings, formats, inspection
 from contact.geometry.inspection import FATAL, Fault
 from contact.geometry.judgement import Inspection as Inspection
@@ -199,7 +199,7 @@ def inspect(
             raise ContactError(f"{name} = {value!r} is none of {', '.join(map(repr, allowed))}")
     if smoothing is not None and wavelength is not None:
         raise ContactError(f"smoothing = {smoothing:g} and wavelength = {wavelength:g} exclude each other")
-    scale = require_number("scale", scale, 0.01, 2.0)
+    scale, repair = require_number("scale", scale, 0.01, 2.0), require_flag("repair", repair)
     choice = formats.as_choice(side or "", columns, rows, section)
     known = READERS.get(path.suffix.lower(), formats.COLUMNS)
     if kind is not None and known.kind not in (None, kind):

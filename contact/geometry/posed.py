@@ -19,7 +19,20 @@ Side = Literal["right", "left"]
 
 MAX_PENETRATION = 2e-3  # [m] that of a wheel under 10 MN; a larger value has a wrong unit
 _ROLLING, _IDEAL = Velocity(), Irregularity()
-_Y, _TURNED, _LOAD, _SPEED, _SLIP = (USUAL[name] for name in ("pose.y", "pose.yaw", "wheel load", "speed", "slip"))
+_Y, _TURNED, _LOAD, _SPEED, _SLIP, _FRICTION = (
+    USUAL[name] for name in ("pose.y", "pose.yaw", "wheel load", "speed", "slip", "friction")
+)
+
+
+def require_motion(pose: object, velocity: object, irregularity: object = _IDEAL) -> None:
+    """Raise a ContactError for a pose, a velocity or an irregularity that is none."""
+    for name, argument, kind in (
+        ("pose", pose, Pose),
+        ("velocity", velocity, Velocity),
+        ("irregularity", irregularity, Irregularity),
+    ):
+        if not isinstance(argument, kind):
+            raise ContactError(f"{name} = {argument!r} is not a contact.geometry.wheelset.{kind.__name__}")
 
 
 class Posed(OwnsArrays):
@@ -41,7 +54,7 @@ class Posed(OwnsArrays):
         self._mirror = 1.0 if side == "right" else -1.0
         self.nominal_radius = RADIUS.require("nominal_radius", nominal_radius)
         self.reference_speed = REFERENCE_SPEED.require("reference_speed", reference_speed)
-        self._doubted = False
+        self._doubted: set[str] = set()  # names for which there was a PlausibilityWarning
         self.told: set[str] = set()  # for what there was a ModelWarning
 
     @one_thread
@@ -65,15 +78,10 @@ class Posed(OwnsArrays):
 
     def motion_of(self, pose: Pose, velocity: Velocity | None, irregularity: Irregularity | None) -> tuple[float, ...]:
         """Return the members of the record GIVEN of a motion, in their order."""
-        velocity, rail = velocity or _ROLLING, irregularity or _IDEAL
+        velocity = _ROLLING if velocity is None else velocity
+        rail = _IDEAL if irregularity is None else irregularity
         if not (isinstance(pose, Pose) and isinstance(velocity, Velocity) and isinstance(rail, Irregularity)):
-            for name, argument, kind in (
-                ("pose", pose, Pose),
-                ("velocity", velocity, Velocity),
-                ("irregularity", rail, Irregularity),
-            ):
-                if not isinstance(argument, kind):
-                    raise ContactError(f"{name} = {argument!r} is not a contact.geometry.wheelset.{kind.__name__}")
+            require_motion(pose, velocity, rail)
         forward, spin = velocity.forward, velocity.spin
         if forward < 0.0 and not self.rolls_back:
             raise ContactError(
@@ -93,11 +101,11 @@ class Posed(OwnsArrays):
         motion["station"][0] = MEMBERS["pair_input"]["station"].require("station", station)
         motion["rotation"][0] = MEMBERS["pair_input"]["rotation"].require("rotation", rotation)
 
-    def _is_usual(self, pose: Pose, velocity: Velocity | None, load: float | None) -> bool:
+    def _is_usual(self, pose: Pose, velocity: Velocity | None, load: float | None, friction: float) -> bool:
         """Return whether `doubt` surely finds nothing. It asks all at once, since this is done at every call."""
         if abs(pose.y) > _Y.largest or abs(pose.roll) > _TURNED.largest or abs(pose.yaw) > _TURNED.largest:
             return False
-        if load and not _LOAD.least <= load <= _LOAD.largest:
+        if friction > _FRICTION.largest or (load and not _LOAD.least <= load <= _LOAD.largest):
             return False
         if velocity is None:
             return True
@@ -107,22 +115,27 @@ class Posed(OwnsArrays):
         )
         return rolls and abs(forward) <= _SPEED.largest
 
-    def doubt(self, pose: Pose, velocity: Velocity | None, load: float | None, name: str = "load") -> None:
-        """Warn of a motion and a load [N] that no wheelset has. Call it in the function that the user calls.
+    def doubt(
+        self, pose: Pose, velocity: Velocity | None, load: float | None, name: str = "load", friction: float = 0.0
+    ) -> None:
+        """Warn of a motion, a load [N] and a friction that no wheelset has. Call it in the function that the user calls.
 
-        It warns at one call only, because a run in time may have a small load in many steps.
+        It warns once of each, because a run in time may have a small load in many steps.
         """
-        if self._doubted or self._is_usual(pose, velocity, load):
+        if self._is_usual(pose, velocity, load, friction):
             return
-        found = [doubt_value(f"pose.{coordinate}", getattr(pose, coordinate)) for coordinate in ("y", "roll", "yaw")]
+        asked = [(f"pose.{coordinate}", getattr(pose, coordinate), "") for coordinate in ("y", "roll", "yaw")]
+        asked.append(("friction", friction, ""))
         if load is not None:
-            found.append(doubt_value("wheel load", load, name))
+            asked.append(("wheel load", load, name))
         if velocity is not None:
-            found.append(doubt_value("speed", velocity.forward, "velocity.forward"))
+            asked.append(("speed", velocity.forward, "velocity.forward"))
         if velocity is not None and velocity.spin is not None and abs(velocity.forward) > SLOWEST:
             slip = 1.0 + velocity.spin * self.nominal_radius / velocity.forward
-            found.append(doubt_value("slip", slip, f"velocity.spin = {velocity.spin:g}: longitudinal creepage"))
-        self._doubted = any(found)
+            asked.append(("slip", slip, f"velocity.spin = {velocity.spin:g}: longitudinal creepage"))
+        for usual, value, called in asked:
+            if usual not in self._doubted and doubt_value(usual, value, called):
+                self._doubted.add(usual)
 
     @staticmethod
     def prescribed(load: float | None, penetration: float | None) -> tuple[int, float]:

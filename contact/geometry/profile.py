@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+from os import PathLike
 from pathlib import Path
 from typing import Any
 
-from contact.errors import require_number
+from contact.errors import require_kind, require_number
 from contact.geometry import library
 from contact.geometry.files import SIDES, UNITS, ZEROS, Inspection, check, read, read_folder
 from contact.geometry.library import ALIASES, cone, is_standard, named, names, rail_60e1, rail_arc, s1002
@@ -47,6 +48,7 @@ def load(
     ContactError
         As `read` and `named`.
     """
+    require_kind("name", name, str | PathLike)
     rail_inclination = inclination if kind == "rail" else None
     rotation = require_number("rotation", rotation, -0.5, 0.5)
     is_file = Path(name).is_file() or (("." in name or "/" in name or "\\" in name) and not is_standard(name))

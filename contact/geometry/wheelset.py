@@ -25,7 +25,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from contact.arrays import Array, as_array
-from contact.errors import ContactError, require_number
+from contact.errors import ContactError, require_kind, require_number
 from contact.geometry.posed import Posed, Side
 from contact.geometry.records import Irregularity, Patch, Pose, Velocity
 from contact.geometry.shape import Profile
@@ -143,6 +143,7 @@ class Pair(Posed):
         motion.mirror, motion.slowest = self._mirror, self.reference_speed
         motion.origin_y, motion.origin_z = origin
         self._widths = f"gauge = {gauge:g} and flange_back = {flange_back:g}"
+        require_kind("material", material, Material)
         self.space.case["G"], self.space.case["nu"] = material.shear_modulus, material.poisson_ratio
         self.patches, self.separations = self.space.patches, self.space.separations
 

@@ -59,7 +59,7 @@ class Material:
         SURFACE["nu"].require("poisson_ratio", self.poisson_ratio)
         HARDNESS.require("hardness", self.hardness)
         SHEAR_YIELD.require("shear_yield", self.shear_yield)
-        if self.pressure_limit != math.inf:
+        if not (isinstance(self.pressure_limit, float) and self.pressure_limit == math.inf):
             require_number("pressure_limit", self.pressure_limit, 0.0, open_minimum=True)
         require_number("coupling", self.coupling, -0.5, 0.5)
         doubt_value("shear_modulus", self.shear_modulus)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from contact.errors import require_flag, require_kind
 from contact.friction import Friction
 from contact.inputs.material import Material
 from contact.inputs.options import ITERATIONS
@@ -24,12 +25,13 @@ def cases(
     max_iterations: int = ITERATIONS.usual,
 ) -> Cases:
     """Return `n` CASE records for these methods and this material. All other members are zero."""
+    require_kind("material", material, Material)
     made = np.zeros(n, CASE)
     made["normal"], made["normal_family"] = normal.id, normal.family
     made["tangential"], made["tangential_family"] = tangential.id, tangential.family
     made["G"], made["nu"] = material.shear_modulus, material.poisson_ratio
     made["pressure_limit"] = material.pressure_limit
-    made["conformal"], made["max_iterations"] = conformal, max_iterations
+    made["conformal"], made["max_iterations"] = require_flag("conformal", conformal), max_iterations
     return made
 
 

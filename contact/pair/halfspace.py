@@ -12,9 +12,10 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from contact.errors import ContactError, require_number
+from contact.errors import ContactError, require_kind, require_number
 from contact.friction import Friction
 from contact.geometry.flexible import WheelOffset
+from contact.geometry.posed import require_motion
 from contact.geometry.records import Irregularity, Pose, Velocity
 from contact.geometry.surfaces import SurfacePair, SurfacePatch
 from contact.halfspace.third_body import ThirdBody
@@ -69,9 +70,11 @@ class Instant(NamedTuple):
         friction: Any,
     ) -> Instant:
         """Return the instant, with what is missing at rest and in place."""
-        return cls(
-            pose, velocity or Velocity(), station, rotation, irregularity or _IDEAL, offset or _STRAIGHT, friction
-        )
+        velocity = Velocity() if velocity is None else velocity
+        irregularity = _IDEAL if irregularity is None else irregularity
+        require_motion(pose, velocity, irregularity)
+        station, rotation = require_number("station", station), require_number("rotation", rotation)
+        return cls(pose, velocity, station, rotation, irregularity, _STRAIGHT if offset is None else offset, friction)
 
 
 class HalfspacePair(AnyPair):
@@ -164,9 +167,8 @@ class HalfspacePair(AnyPair):
         given = {"load": load, "penetration": penetration, "vertical": vertical}
         if sum(amount is not None for amount in given.values()) > 1:
             raise ContactError(f"of {given} only one may be given")
-        for name, value, kind in (("rail", rail, ElasticRail), ("offset", at.offset, WheelOffset)):
-            if not isinstance(value, kind | None):
-                raise ContactError(f"{name} = {value!r} is not a {kind.__module__}.{kind.__name__}")
+        require_kind("rail", rail, ElasticRail | None)
+        require_kind("offset", at.offset, WheelOffset)
 
         def placed(dy: float, dz: float, now: Instant) -> PairSolution:
             moved = replace(now.irregularity, y=now.irregularity.y + dy, z=now.irregularity.z + dz)
@@ -197,11 +199,11 @@ class HalfspacePair(AnyPair):
         """Return the solution at a height, or under a force."""
         if vertical is not None:
             require_number("vertical", vertical, 0.0)
+        mode, amount = self.pair.prescribed(load, penetration)
         self._place(at)
-        self._doubt(at, *((load,) if vertical is None else (vertical, "vertical")))
+        self._doubt(at, *((load, "load") if vertical is None else (vertical, "vertical")))
         if vertical is not None:
             return self._under(vertical, at)
-        mode, amount = self.pair.prescribed(load, penetration)
         if mode != Height.LOAD:
             return self._solution(within(self.pair.found)(mode, amount), at)
         missed = within(self.pair.settle)(amount)
@@ -220,9 +222,9 @@ class HalfspacePair(AnyPair):
             irregularity=at.irregularity,
         )
 
-    def _doubt(self, at: Instant, *amount: Any) -> None:
-        """Warn of what no wheelset has."""
-        self.pair.doubt(at.pose, at.velocity, *amount)
+    def _doubt(self, at: Instant, load: float | None, name: str) -> None:
+        """Warn of what no wheelset has; `contact.solve` doubts the friction."""
+        self.pair.doubt(at.pose, at.velocity, load, name)
 
     @property
     def _datum(self) -> float:

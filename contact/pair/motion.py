@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from contact.arrays import Array, as_array
-from contact.errors import ContactError, require_number, warn
+from contact.errors import ContactError, require_kind, require_number, warn
 from contact.friction import Friction, as_friction
 from contact.geometry.flexible import WheelOffset
 from contact.geometry.posed import Posed
@@ -152,6 +152,9 @@ class AnyPair(OwnsArrays, ABC):
             For unknown names, columns of other lengths, times that do not increase, and as the pair's `solve`; the message then
             names the time or the station.
         """
+        require_kind("motion", motion, Mapping)
+        require_kind("memory", memory, FrictionMemory | None)
+        require_kind("damping", damping, ContactDamping | None)
         columns = _columns(motion)
         if memory is not None and COEFFICIENT in columns:
             raise ContactError(f"memory and {COEFFICIENT} exclude each other: the memory gives the coefficient")

@@ -25,6 +25,7 @@ import numpy as np
 
 from contact.errors import ContactError, require_number
 from contact.friction import Friction, as_friction
+from contact.geometry.posed import require_motion
 from contact.geometry.records import Patch, Pose, Velocity
 from contact.geometry.surfaces.frame import Frame
 from contact.geometry.wheelset import Pair
@@ -96,6 +97,7 @@ class RollerRig(AnyPair):
     @one_thread
     def contacts(self, pose: Pose, velocity: Velocity, *, penetration: float | None = None) -> tuple[Patch, ...]:
         """Return the patches on the roller. `velocity.forward` is the speed of the roller's surface at `radius` [m/s]."""
+        require_motion(pose, velocity)
         found = within(self.pair.contacts)(replace(pose, z=pose.z - self._lower), velocity, penetration=penetration)
         return tuple(self._on_roller(patch, velocity) for patch in found)
 
@@ -133,15 +135,18 @@ class RollerRig(AnyPair):
         ContactError
             For arguments outside their range, or if no height gives the force.
         """
+        require_motion(pose, velocity)
         require_number("velocity.forward", velocity.forward, 0.0, open_minimum=True)
         surface = as_friction(friction)
         if load is not None and vertical is not None:
             raise ContactError(f"vertical = {vertical} excludes load = {load}")
+        found: PairSolution | None = None
         if load is None and vertical is None:
-            return self._at(pose, velocity, surface)
+            found = self._at(pose, velocity, surface)
+            self.pair.doubt(pose, velocity, None)  # `contact.solve` doubts the friction
+            return found
         name, given = ("load", load) if vertical is None else ("vertical", vertical)
         wanted = require_number(name, given, 0.0, open_minimum=True)
-        found: PairSolution | None = None
 
         def residual(penetration: float) -> float:
             nonlocal found
@@ -152,6 +157,7 @@ class RollerRig(AnyPair):
         root = rising_root(residual, _START, wanted / _START, (0.0, _DEEPEST), shortest=_SHORTEST)
         if found is None or abs(root.residual) > 1e-3 * wanted:
             raise ContactError(f"{name} = {wanted:g}: no height was found at which the wheel carries it on this roller")
+        self.pair.doubt(pose, velocity, wanted, name)
         return found
 
     def _on_roller(self, patch: Patch, velocity: Velocity) -> Patch:

@@ -235,9 +235,9 @@ class TransientPair(HalfspacePair):
                 cover.append((left, right, low, high))
         return Lattice(self._spacing, y, arc, shift, zero, tuple(cover))
 
-    def _doubt(self, at: Instant, *amount: Any) -> None:
+    def _doubt(self, at: Instant, load: float | None, name: str) -> None:
         if self._step.distance > 0.0:
-            super()._doubt(at, *amount)
+            super()._doubt(at, load, name)
 
     def _profile(self, station: float) -> tuple[Array, Array]:
         """Return y and arc length of the rail's profile [m], from y = 0 on; y increases."""

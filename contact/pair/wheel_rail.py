@@ -10,10 +10,10 @@ import numpy as np
 
 from contact.core import pack
 from contact.damage import DamageParameters
-from contact.errors import ContactError, require_number
+from contact.errors import ContactError, require_kind, require_number
 from contact.friction import Friction, as_friction
 from contact.geometry.flexible import WheelOffset
-from contact.geometry.posed import Posed
+from contact.geometry.posed import Posed, require_motion
 from contact.geometry.records import Irregularity, Pose, Velocity
 from contact.geometry.surfaces import SurfacePair
 from contact.geometry.wheelset import Pair
@@ -103,9 +103,8 @@ class WheelRailPair(AnyPair):
             )
         if ledger is not None and not isinstance(pair, Pair):
             raise ContactError(f"ledger = {ledger!r}: {pair!r} has no profiles over which damage could be added up")
-        for name, given, kind in (("material", material, Material), ("damage", damage, DamageParameters)):
-            if not isinstance(given, kind | None):
-                raise ContactError(f"{name} = {given!r} is no {kind.__module__}.{kind.__name__}")
+        require_kind("material", material, Material)
+        require_kind("damage", damage, DamageParameters | None)
         self.pair = pair.again()  # so that two of these can have one pair
         if ledger is not None:
             self.pair.take_turns_with(turn_of(ledger.bins))
@@ -148,6 +147,7 @@ class WheelRailPair(AnyPair):
         self._bytes = self._motion.view(np.uint8).data, self.arrays.case.view(np.uint8).data
         self._speed, self._distance = self.arrays.case["speed"], self.arrays.ledger.settings["distance"]
         self._surface: tuple[object, bytes] = (None, b"")
+        self._static = 0.0
         self.arrays.damage_parameters[:] = (damage or DamageParameters()).record(material, 1.0, 1.0)
 
     def _kept(self) -> Any:
@@ -259,7 +259,9 @@ class WheelRailPair(AnyPair):
                 )
 
             shear_modulus = float(self.arrays.case[0]["G"])
-            return drive(turning, velocity or Velocity(), self.pair.nominal_radius, shear_modulus, force, torque)
+            velocity = Velocity() if velocity is None else velocity
+            require_motion(pose, velocity)
+            return drive(turning, velocity, self.pair.nominal_radius, shear_modulus, force, torque)
         if vertical is None:
             mode, amount = self.pair.prescribed(load, penetration)
         elif load is None and penetration is None:
@@ -270,10 +272,12 @@ class WheelRailPair(AnyPair):
         self._set_rail(_RIGID if rail is None else rail)
         self._set_offset(_STRAIGHT if offset is None else offset)
         given = self.pair.motion_of(pose, velocity, irregularity)
-        self.pair.set_way(station, rotation + self._offset.pitch)
+        pitch = self._offset.pitch
+        self.pair.set_way(station, rotation if pitch == 0.0 else require_number("rotation", rotation) + pitch)
         if friction is not self._surface[0]:
             law = as_friction(friction)
             self._surface = law if law is friction or type(friction) is not float else friction, surface_bytes(law)
+            self._static = law.static
         of_motion, of_case = self._bytes
         _PACK_MOTION(of_motion, 0, *given)
         of_case[SURFACE], self._speed[0] = self._surface[1], abs(given[_FORWARD])
@@ -288,10 +292,8 @@ class WheelRailPair(AnyPair):
                 f"vertical = {vertical:g}: no z was found at which normal and friction forces carry it together"
             )
         self.pair.require_found(code, pose, load)
-        if vertical is None:
-            self.pair.doubt(pose, velocity, load)
-        else:
-            self.pair.doubt(pose, velocity, vertical, "vertical")
+        carried, name = (load, "load") if vertical is None else (vertical, "vertical")
+        self.pair.doubt(pose, velocity, carried, name, self._static)
         jacobian = self._derive(mode, self._motion[0], load, penetration, vertical) if derivatives else None
         y, z = self._deflection
         found = PairSolution.of_kernel(*self._found, code, (float(y[0]), float(z[0])), given[_SPIN], jacobian)
@@ -325,9 +327,11 @@ class WheelRailPair(AnyPair):
         """
         if not isinstance(self.pair, Pair):
             raise ContactError(f"{self.pair!r} changes along the way; contact.plot.passage draws what `run` returns")
-        require_number("velocity.forward", (velocity or Velocity()).forward, 0.0)
+        velocity = Velocity() if velocity is None else velocity
+        require_motion(pose, velocity)
+        require_number("velocity.forward", velocity.forward, 0.0)
         found = self.solve(pose, velocity, **given)
-        velocity = replace(velocity or Velocity(), spin=found.spin)
+        velocity = replace(velocity, spin=found.spin)
         rail = given.get("irregularity")
         patches = self.pair.contacts(replace(pose, z=found.z), velocity, irregularity=rail)
         surface = as_friction(given.get("friction", 0.3))

@@ -10,7 +10,7 @@ from contact import ContactError
 from contact.errors import PlausibilityWarning
 from contact.geometry import profile
 from contact.geometry.wheelset import Pair, Pose, Velocity, contacts
-from contact.pair import WheelRailPair
+from contact.pair import RollerRig, WheelRailPair
 
 WHEEL, RAIL = profile.s1002(), profile.rail_60e1()
 LIGHT = r"^{} = 80: a wheel carries 20 to 150 kN; the unit is N$"
@@ -34,7 +34,7 @@ def test_a_wheel_load_in_kilonewton_is_doubted(solver):
         contacts(WHEEL, RAIL, Pose(), load=80)
     assert said[0].filename == __file__
     for name in ("load", "vertical"):
-        solver.pair._doubted = False
+        solver.pair._doubted.clear()
         with pytest.warns(PlausibilityWarning, match=LIGHT.format(name)) as said:
             solver.solve(Pose(), **{name: 80})
         assert said[0].filename == __file__
@@ -43,9 +43,23 @@ def test_a_wheel_load_in_kilonewton_is_doubted(solver):
 
 
 def test_a_run_with_small_loads_warns_once(solver):
-    solver.pair._doubted = False
+    solver.pair._doubted.clear()
     said = [doubts(solver.solve, Pose(), load=load) for load in (80e3, 500.0, 400.0, 300.0)]
     assert [len(one) for one in said] == [0, 1, 0, 0]
+    for pose, friction in ((Pose(y=0.03), 0.3), (Pose(), 30.0)):  # another argument is another doubt
+        assert [len(doubts(solver.solve, pose, load=500.0, friction=friction)) for _ in range(2)] == [1, 0]
+
+
+@pytest.mark.parametrize("of", [WheelRailPair, lambda pair: RollerRig(pair, 0.6)])
+def test_every_pair_doubts_load_friction_and_pose(of):
+    pair = of(Pair(WHEEL, RAIL))
+    for pose, options, said in (
+        (Pose(), {"load": 80}, LIGHT.format("load")),
+        (Pose(), {"load": 80e3, "friction": 30}, r"^friction = 30: steel on steel has 0\.05 to 0\.6"),
+        (Pose(y=0.02), {"load": 80e3}, r"^pose\.y = 0\.02: a flange touches"),
+    ):
+        with pytest.warns(PlausibilityWarning, match=said):
+            pair.solve(pose, Velocity(20.0), **options)
 
 
 SEPARATION = contact.Separation.hertzian(1.1, 0.8)
@@ -141,7 +155,7 @@ def test_a_wrong_sign_of_the_axles_spin_is_doubted(solver):
     motion = Velocity(forward=20.0, spin=20.0 / 0.46)
     with pytest.warns(PlausibilityWarning, match=BACKWARD):
         contacts(WHEEL, RAIL, Pose(), motion, load=80e3)
-    solver.pair._doubted = False
+    solver.pair._doubted.clear()
     with pytest.warns(PlausibilityWarning, match=BACKWARD):
         solver.solve(Pose(), motion, load=80e3)
     for spin in (-20.0 / 0.46, -28.0 / 0.46, None):  # free, driven with a slip of .4

@@ -1,0 +1,69 @@
+"""Arguments of a wrong kind are refused by name, as values without meaning are (`test_refused_arguments.py`)."""
+
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+import pytest
+
+import contact
+from contact.geometry import profile
+from contact.geometry.flexible import WheelOffset
+from contact.geometry.surfaces import SurfacePair
+from contact.geometry.wheelset import Pair, Pose, Velocity
+from contact.pair import HalfspacePair, RollerRig, WheelRailPair
+from tests.doors import CREEPAGE, ELLIPSE, PAIR, RAIL, WHEEL, rolled, solve, steel
+
+
+def on_elements(velocity=None, **given):
+    return HalfspacePair(SurfacePair(WHEEL, RAIL)).solve(Pose(), velocity, **{"load": 8e4, **given})
+
+
+def driven(motion, **given):
+    return WheelRailPair(PAIR).run(motion, **given)
+
+
+REFUSED: list[tuple[Callable[[], Any], str]] = [
+    # a contact
+    (lambda: solve(load=1.0, normal=["analyn"]), r"normal = \['analyn'\] is not a registered method"),
+    (lambda: solve(load=1.0, material="steel"), "material = 'steel' is not a contact.inputs.material.Material"),
+    (lambda: solve(load=1.0, conformal="no"), "conformal = 'no' is neither True nor False"),
+    (lambda: solve(load=1.0, speed=np.array([1.0, 2.0])), r"speed = array\(\[1., 2.\]\) is not a number"),
+    (lambda: contact.Solver(conformal=2), "conformal = 2 is neither True nor False"),
+    (lambda: contact.forces(None, CREEPAGE, load=1.0), "separation is empty or holds an object that is not"),
+    (lambda: contact.forces(ELLIPSE, CREEPAGE, load=1.0, threads="x"), "threads = 'x' is not an integer"),
+    (lambda: contact.forces(ELLIPSE, CREEPAGE, load=1.0, conformal="no"), "conformal = 'no' is neither True nor False"),
+    (lambda: steel(pressure_limit=np.array([1e9, 2e9])), r"pressure_limit = array\(.*\) is not a number"),
+    # what a wheel's motion is
+    (lambda: Pair(WHEEL, RAIL, material=None), "material = None is not a contact.inputs.material.Material"),
+    (lambda: WheelRailPair(PAIR, material=None), "material = None is not a contact.inputs.material.Material"),
+    (lambda: WheelRailPair(PAIR, conformal="yes"), "conformal = 'yes' is neither True nor False"),
+    (
+        lambda: WheelRailPair(PAIR).solve(Pose(), {}, load=1.0),
+        "velocity = {} is not a contact.geometry.wheelset.Velocity",
+    ),
+    (lambda: WheelRailPair(PAIR).solve(Pose(), "fast", load=1.0, force=1.0), "velocity = 'fast' is not a contact"),
+    (lambda: rolled(irregularity=0), "irregularity = 0 is not a contact.geometry.wheelset.Irregularity"),
+    (lambda: rolled(rotation="1"), "rotation = '1' is not a number"),
+    (lambda: rolled(rotation="1", offset=WheelOffset(pitch=0.01)), "rotation = '1' is not a number"),
+    (lambda: RollerRig(PAIR, 0.6).solve(None, Velocity(1.0), load=1.0), "pose = None is not a contact"),
+    (lambda: RollerRig(PAIR, 0.6).contacts(Pose(), None), "velocity = None is not a contact"),
+    (lambda: on_elements(load="8"), "load = '8' is not a number"),
+    (lambda: on_elements(rotation=[1.0]), r"rotation = \[1.0\] is not a number"),
+    (lambda: on_elements(velocity=20.0, force=1.0), "velocity = 20.0 is not a contact"),
+    (
+        lambda: on_elements(irregularity="x"),
+        "irregularity = 'x' is not a contact",
+    ),
+    (lambda: driven([1.0]), r"motion = \[1.0\] is not a collections.abc.Mapping"),
+    (lambda: driven({"time": [0.0, 1.0]}, memory="x"), "memory = 'x' is not a contact.pair"),
+    (lambda: driven({"time": [0.0, 1.0]}, damping=1.0), "damping = 1.0 is not a contact.pair"),
+    (lambda: profile.load(None, "rail"), "name = None is not a"),
+    (lambda: profile.load("rail.txt", "rail", repair="no"), "repair = 'no' is neither True nor False"),
+]
+
+
+@pytest.mark.parametrize(("call", "message"), REFUSED)
+def test_an_argument_of_a_wrong_kind_is_refused_by_name(call, message):
+    with pytest.raises(contact.ContactError, match=message):
+        call()
