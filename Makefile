@@ -110,6 +110,7 @@ explorer: dist/explorer.html ## compile the kernels to WebAssembly and write the
 docs: $(READY_FOR_DOCS) dist/explorer.html ## build the documentation site in build/docs/html; warnings, broken links and misspellings are errors
 	PYTHONPATH="$(CURDIR)" $(BIN)/python -m sphinx -W --keep-going -q -b html docs build/docs/html
 	$(BIN)/python docs/check.py build/docs/html
+	$(BIN)/codespell $$(git ls-files '*.md' '*.py' '*.toml' '*.m' '*.c' '*.h' Makefile)
 	@echo "build/docs/html/index.html"
 
 pictures: $(READY) ## make the pictures of the README and of the page on vehicles

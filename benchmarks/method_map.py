@@ -1,11 +1,10 @@
 """Accuracy over time of all methods on the same wheel-rail contacts: docs/check/method_map.md and its picture.
 
-python -m benchmarks.method_map [--contacts 500] [--write docs] [--exact FILE]
+python -m benchmarks.method_map [--contacts 500] [--write docs]
 
 A contact is the most loaded patch of a random pose of S1002 on 60E1 (1:40), at its own spin and random creepages. The reference
 is the element-wise half space, which agrees with CONTACT to 6e-6 of friction times load (docs/check/halfspace.md). Its error
 falls with the size of the elements, so its forces are extrapolated from two grids, both finer than any that is shown.
-`--exact` keeps its answers in a .npy file, or takes them from it.
 """
 
 from __future__ import annotations
@@ -170,15 +169,10 @@ def draw(path: Path, times: Array, errors: Array, interacting: list[bool]) -> No
 
 def main() -> None:
     """Print the table, or write page and picture."""
-    options = read_options(__doc__, contacts=500, write=Path, exact=Path)
+    options = read_options(__doc__, contacts=500, write=Path)
     given = contacts(options.contacts)
-    if options.exact and options.exact.exists():
-        exact = np.load(options.exact)
-    else:
-        with ProcessPoolExecutor() as pool:
-            exact = np.array(list(pool.map(extrapolated, given, chunksize=8)))
-        if options.exact:
-            np.save(options.exact, exact)
+    with ProcessPoolExecutor() as pool:
+        exact = np.array(list(pool.map(extrapolated, given, chunksize=8)))
     bound = FRICTION * np.array([load for _, _, load in given])
     trusted = exact[:, 5] > 0.0
     rows, times, errors, slowest = [], [], [], []

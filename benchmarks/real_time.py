@@ -252,15 +252,9 @@ def free_run(host: Host, steps: int) -> tuple[dict[str, object], Array, Array]:
 
 def main(arguments: Sequence[str] | None = None) -> None:
     """Print what was found, and write page and picture."""
-    given = read_options(__doc__, arguments, length=400.0, steps=1_000_000, real=60_000, motion=Path, write=Path)
-    if given.motion and given.motion.exists():
-        moved = np.load(given.motion)
-    else:
-        moved = motions(given.length)
-        if given.motion:
-            np.save(given.motion, moved)
+    given = read_options(__doc__, arguments, length=400.0, steps=1_000_000, real=60_000, write=Path)
     with TemporaryDirectory() as name:
-        host = Host(Path(name), moved)
+        host = Host(Path(name), motions(given.length))
         numbers, steps, least = free_run(host, given.steps)
         rows, shares = caps(host)
         timed, place = in_time(host, given.real)

@@ -1,6 +1,6 @@
 """Wheel flats, polygons and crossings against CONTACT (sets E and F): height, force, pressure and place of the poses.
 
-    python benchmarks/surfaces.py FOLDER [--sweeps hav05 nose …] [--elements 60 | --spacing 0.2] [--normal halfspace] [--each]
+    python benchmarks/surfaces.py FOLDER [--sweeps hav05 nose …] [--elements 60 | --spacing 0.2] [--normal halfspace] [--gaps]
 
 FOLDER holds `E_wheelflat/` and `F_crossing/`, which are not ours to pass on. Every pose is searched and solved on the
 surfaces, with CONTACT's height (mode z) or vertical force (mode Fz), by the element-wise half space or, with `--normal` and
@@ -180,7 +180,6 @@ def main() -> None:
         normal="halfspace",
         tangential="fastrip_mapped",
         gaps=False,
-        each=False,
     )
     files = sorted(chosen.folder.glob("[EF]_*/*.csv"))
     rows = []
@@ -194,12 +193,7 @@ def main() -> None:
         elementwise = chosen.normal == "halfspace"
         methods = {"normal": chosen.normal, "tangential": chosen.tangential}
         solver = HalfspacePair(pair) if elementwise else WheelRailPair(pair, material=STEEL, **methods)
-        found = []
-        for pose in poses(files, sweep):
-            found.append(errors(pose, solver, velocity))
-            if chosen.each:
-                where = pose[0].get("s_ws") or pose[0]["pitch_deg"]
-                print(sweep, where, {k: float(f"{v:.3g}") for k, v in found[-1].items()}, flush=True)
+        found = [errors(pose, solver, velocity) for pose in poses(files, sweep)]
         columns = []
         for name in ("height", "pressure", "force", "place", "fit"):
             values = [e[name] for e in found if name in e]

@@ -70,20 +70,23 @@ def ellipse(rng: Rng) -> contact.Separation:
     return contact.Separation.hertzian(10 ** rng.uniform(-0.5, 0.5), 10 ** rng.uniform(-1.3, 2))
 
 
+def _cornered(
+    rng: Rng, half: float, width: tuple[float, float], flat: tuple[float, float], corner: tuple[float, float]
+) -> contact.Separation:
+    """Return a gap with a small curvature within a width and a large one outside; curvatures are powers of ten."""
+    y, A, x_c = _support(rng, half)
+    w, B = rng.uniform(*width), 10 ** rng.uniform(*flat)
+    return contact.Separation(y, B * y**2 + 10 ** rng.uniform(*corner) * np.maximum(np.abs(y) - w, 0) ** 2, A, x_c)
+
+
 def near_conformal(rng: Rng) -> contact.Separation:
     """Return a gap whose curvature is small within a width and large outside."""
-    y, A, x_c = _support(rng, 25e-3)
-    width = rng.uniform(3e-3, 15e-3)
-    B = 10 ** rng.uniform(-2, -0.5)
-    return contact.Separation(y, B * y**2 + 10 ** rng.uniform(0, 1.5) * np.maximum(np.abs(y) - width, 0) ** 2, A, x_c)
+    return _cornered(rng, 25e-3, (3e-3, 15e-3), (-2, -0.5), (0, 1.5))
 
 
 def nearly_flat(rng: Rng) -> contact.Separation:
     """Return a punch: a gap below one micrometre over some millimetres, then a corner."""
-    y, A, x_c = _support(rng, 20e-3)
-    width = rng.uniform(1e-3, 10e-3)
-    B = 10 ** rng.uniform(-5, -2)
-    return contact.Separation(y, B * y**2 + 10 ** rng.uniform(1, 2.5) * np.maximum(np.abs(y) - width, 0) ** 2, A, x_c)
+    return _cornered(rng, 20e-3, (1e-3, 10e-3), (-5, -2), (1, 2.5))
 
 
 def two_lobed(rng: Rng) -> contact.Separation:

@@ -26,10 +26,10 @@ def lobes(gap: Gap, approach: float) -> list[Lobe]:
     """Return the lobes of a patch from low to high y."""
     least = gap.h.min(axis=1) - approach
     edges = np.flatnonzero(np.diff(np.concatenate(([False], least < 0.0, [False])).astype(np.int8))).reshape(-1, 2)
-    return [Lobe(_zero(gap.y, least, first - 1, first), _zero(gap.y, least, end, end - 1)) for first, end in edges]
+    return [Lobe(zero(gap.y, least, first - 1, first), zero(gap.y, least, end, end - 1)) for first, end in edges]
 
 
-def _zero(y: Array, least: Array, outside: int, inside: int) -> float:
+def zero(y: Array, least: Array, outside: int, inside: int) -> float:
     """Return where the line between two rows is 0 [m]."""
     if not 0 <= outside < y.size:
         return float(y[inside])

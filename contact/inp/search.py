@@ -25,6 +25,7 @@ from contact.geometry.surfaces.frame import Frame
 from contact.halfspace import Gap
 from contact.halfspace.lattice import Lattice
 from contact.inp.case import Case
+from contact.inp.lobes import zero
 from contact.inp.locus import locus, points_of
 from contact.inp.nodes import bilinear
 from contact.inp.outline import Outline, Outlines, standing
@@ -237,7 +238,7 @@ class Search:
         slopes = np.nan_to_num(self.rail.slopes(view, y))
         found = []
         for i in np.split(k, np.flatnonzero(np.diff(k) > 1) + 1) if apart else [k]:
-            across = np.array([_zero(y, depth, i[0] - 1, i[0]), _zero(y, depth, i[-1] + 1, i[-1])])
+            across = np.array([zero(y, depth, i[0] - 1, i[0]), zero(y, depth, i[-1] + 1, i[-1])])
             # the integral over x of the depth, or of its square, of a parabola
             half = np.sqrt(depth[i] / curvature)
             weight = depth[i] ** power * half
@@ -323,14 +324,6 @@ def _multiples(first: float, step: float, box: tuple[float, float]) -> Array:
     """Return the places in a box that lie at multiples of a step from the first one."""
     k = np.arange(math.ceil((box[0] - first) / step), math.floor((box[1] - first) / step) + 1, dtype=np.float64)
     return first + step * k
-
-
-def _zero(y: Array, depth: Array, outside: int, inside: int) -> float:
-    """Return where the line between two rows is 0 [m]."""
-    if not 0 <= outside < y.size:
-        return float(y[inside])
-    t = depth[inside] / (depth[inside] - depth[outside])
-    return float(y[inside] + t * (y[outside] - y[inside]))
 
 
 def joined(found: Sequence[Found], limits: tuple[float, float], height: Callable[[float, float], float]) -> list[Found]:

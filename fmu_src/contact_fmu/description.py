@@ -14,7 +14,7 @@ from xml.etree.ElementTree import Element, SubElement, indent, tostring
 
 from contact import __version__
 from .units import BASE_UNITS, DISPLAY_UNITS, UNITS, display_unit
-from .variables import Causality, Kind, Scalar, Table
+from .variables import Causality, Enumeration, Kind, Scalar, Table, Variable
 
 LOG_CATEGORIES = {
     "logStatusWarning": "A result that should be used with care",
@@ -49,8 +49,13 @@ def model_description(
             SubElement(listed, "File", name=name)
     guid = f"{{{UUID(bytes=hashlib.sha256(tostring(root) + code).digest()[:16])}}}"
     root.set("guid", guid)
+    return guid, text_of(root)
+
+
+def text_of(root: Element) -> str:
+    """Return an indented file of XML."""
     indent(root)
-    return guid, '<?xml version="1.0" encoding="UTF-8"?>\n' + tostring(root, encoding="unicode") + "\n"
+    return '<?xml version="1.0" encoding="UTF-8"?>\n' + tostring(root, encoding="unicode") + "\n"
 
 
 def number(value: float) -> str:
@@ -58,23 +63,22 @@ def number(value: float) -> str:
     return repr(value)
 
 
-def _root(table: Table, interfaces: Interfaces) -> Element:
-    root = Element(
-        "fmiModelDescription",
-        {
-            "fmiVersion": "2.0",
-            "modelName": table.name,
-            "guid": "",
-            "description": table.description,
-            **ORIGIN,
-            "variableNamingConvention": "structured",
-        },
-    )
+def root_of(table: Table, interfaces: Interfaces, version: str, **identity: str) -> Element:
+    """Return the root of a description with its interfaces; `identity` is what the version calls guid or token."""
+    about = {"description": table.description, **ORIGIN, "variableNamingConvention": "structured"}
+    root = Element("fmiModelDescription", {"fmiVersion": version, "modelName": table.name, **identity, **about})
     for interface, attributes in interfaces.items():
         SubElement(root, interface, {"modelIdentifier": table.name, **attributes})
+    return root
+
+
+def _root(table: Table, interfaces: Interfaces) -> Element:
+    root = root_of(table, interfaces, "2.0", guid="")
     shown = [(r, table.scalars[r]) for row in table.shown for r in table.references(row.name)]
     units(root, {scalar.unit for _, scalar in shown if scalar.row.kind is Kind.REAL})
-    _types(root, table)
+    for enumeration, definitions in enumerations(root, table):
+        simple = SubElement(definitions, "SimpleType", name=enumeration.name)
+        items(SubElement(simple, "Enumeration"), enumeration)
     experiment(root, table)
     variables = SubElement(root, "ModelVariables")
     for reference, scalar in shown:
@@ -106,16 +110,19 @@ def experiment(root: Element, table: Table) -> None:
     SubElement(root, "DefaultExperiment", startTime="0.0", stopTime=number(STOP_TIME), stepSize=number(table.step_size))
 
 
-def _types(root: Element, table: Table) -> None:
-    enumerations = {row.enumeration.name: row.enumeration for row in table.shown if row.enumeration}
-    if not enumerations:
-        return
-    definitions = SubElement(root, "TypeDefinitions")
-    for enumeration in enumerations.values():
-        simple = SubElement(definitions, "SimpleType", name=enumeration.name)
-        items = SubElement(simple, "Enumeration")
-        for value, (name, description) in enumerate(enumeration.items, start=1):
-            SubElement(items, "Item", name=name, value=str(value), description=description)
+def enumerations(root: Element, table: Table) -> Iterator[tuple[Enumeration, Element]]:
+    """Yield each enumeration that is used, and the element, added with the first, that takes its definition."""
+    found = {row.enumeration.name: row.enumeration for row in table.shown if row.enumeration}
+    if found:
+        definitions = SubElement(root, "TypeDefinitions")
+        for enumeration in found.values():
+            yield enumeration, definitions
+
+
+def items(element: Element, enumeration: Enumeration) -> None:
+    """Add the items of an enumeration, which are the same in FMI 2.0 and 3.0."""
+    for value, (name, description) in enumerate(enumeration.items, start=1):
+        SubElement(element, "Item", name=name, value=str(value), description=description)
 
 
 def _variable(reference: int, scalar: Scalar) -> Element:
@@ -157,18 +164,20 @@ def _structure(root: Element, table: Table, index: Mapping[int, int]) -> None:
     `index` is that of each value reference.
     """
     structure = SubElement(root, "ModelStructure")
-    outputs = [row for row in table.shown if row.causality is Causality.OUTPUT]
-    inputs = [row for row in table.shown if row.causality is Causality.INPUT]
-    parameters = [row for row in table.shown if row.causality is Causality.PARAMETER]
-    for section, rows, knowns in (
-        ("Outputs", outputs, inputs),
-        ("InitialUnknowns", [row for row in outputs if row.initial == "calculated"], [*parameters, *inputs]),
-    ):
+    for name, rows, knowns in unknowns(table.shown):
         if rows:
-            element = SubElement(structure, section)
-            names = {known.name for known in knowns}
+            element = SubElement(structure, f"{name}s")
             for row in rows:
-                known = [r for of in table.knowns(row) if of.name in names for r in table.references(of.name)]
+                known = [r for of in table.knowns(row) if of in knowns for r in table.references(of.name)]
                 dependencies = " ".join(str(index[reference]) for reference in known)
                 for reference in table.references(row.name):
                     SubElement(element, "Unknown", index=str(index[reference]), dependencies=dependencies)
+
+
+def unknowns(rows: Sequence[Variable]) -> Iterator[tuple[str, list[Variable], list[Variable]]]:
+    """Yield what is unknown by its name in ModelStructure, its rows, and those on which they may depend."""
+    outputs, inputs, parameters = (
+        [row for row in rows if row.causality is of] for of in (Causality.OUTPUT, Causality.INPUT, Causality.PARAMETER)
+    )
+    yield "Output", outputs, inputs
+    yield "InitialUnknown", [row for row in outputs if row.initial == "calculated"], [*parameters, *inputs]

@@ -4,37 +4,25 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Sequence
-from xml.etree.ElementTree import Element, SubElement, indent, tostring
+from xml.etree.ElementTree import Element, SubElement
 
-from .description import ORIGIN, Interfaces, experiment, number, units
+from .description import Interfaces, enumerations, experiment, items, number, root_of, text_of, units, unknowns
 from .units import display_unit
-from .variables import Causality, Kind, Scalar, Table, Variable
+from .variables import Kind, Scalar, Table, Variable
 
 _TYPES = {Kind.REAL: "Float64", Kind.INTEGER: "Int64", Kind.BOOLEAN: "Boolean", Kind.ENUMERATION: "Enumeration"}
 
 
 def model_description(table: Table, interfaces: Interfaces, token: str) -> str:
     """Return the XML of an FMU with this table and these interfaces. `token` is the instantiation token of its binary."""
-    root = Element(
-        "fmiModelDescription",
-        {
-            "fmiVersion": "3.0",
-            "modelName": table.name,
-            "instantiationToken": token,
-            "description": table.description,
-            **ORIGIN,
-            "variableNamingConvention": "structured",
-        },
-    )
-    for interface, attributes in interfaces.items():
-        SubElement(root, interface, {"modelIdentifier": table.name, **attributes})
+    root = root_of(table, interfaces, "3.0", instantiationToken=token)
     units(root, {row.unit for row in (*table.shown, *table.fields) if row.kind is Kind.REAL} | {"s"})
-    _types(root, table)
+    for enumeration, definitions in enumerations(root, table):
+        items(SubElement(definitions, "EnumerationType", name=enumeration.name), enumeration)
     experiment(root, table)
     _variables(root, table)
     _structure(root, table)
-    indent(root)
-    return '<?xml version="1.0" encoding="UTF-8"?>\n' + tostring(root, encoding="unicode") + "\n"
+    return text_of(root)
 
 
 def build_description(name: str, sources: Sequence[str]) -> str:
@@ -56,8 +44,7 @@ def build_description(name: str, sources: Sequence[str]) -> str:
     SubElement(
         configuration, "Library", name="m", external="true", description="Mathematical functions of the C library"
     )
-    indent(root)
-    return '<?xml version="1.0" encoding="UTF-8"?>\n' + tostring(root, encoding="unicode") + "\n"
+    return text_of(root)
 
 
 def value_references(table: Table) -> dict[str, int]:
@@ -69,17 +56,6 @@ def value_references(table: Table) -> dict[str, int]:
     for name in (*(field.name for field in table.fields), "time"):
         references[name] = len(table.scalars) + len(references) - len(table.rows)
     return references
-
-
-def _types(root: Element, table: Table) -> None:
-    enumerations = {row.enumeration.name: row.enumeration for row in table.shown if row.enumeration}
-    if not enumerations:
-        return
-    definitions = SubElement(root, "TypeDefinitions")
-    for enumeration in enumerations.values():
-        items = SubElement(definitions, "EnumerationType", name=enumeration.name)
-        for value, (name, description) in enumerate(enumeration.items, start=1):
-            SubElement(items, "Item", name=name, value=str(value), description=description)
 
 
 def _variables(root: Element, table: Table) -> None:
@@ -138,14 +114,8 @@ def _attributes(row: Variable, scalars: list[Scalar]) -> Iterator[tuple[str, str
 def _structure(root: Element, table: Table) -> None:
     """Add ModelStructure. Outputs depend on inputs, their initial values on parameters and inputs."""
     structure = SubElement(root, "ModelStructure")
-    rows, references = (*table.shown, *table.fields), value_references(table)
-    outputs = [row for row in rows if row.causality is Causality.OUTPUT]
-    inputs = [row for row in rows if row.causality is Causality.INPUT]
-    parameters = [row for row in rows if row.causality is Causality.PARAMETER]
-    for element, unknowns, knowns in (
-        ("Output", outputs, inputs),
-        ("InitialUnknown", [row for row in outputs if row.initial == "calculated"], [*parameters, *inputs]),
-    ):
-        for row in unknowns:
+    references = value_references(table)
+    for element, rows, knowns in unknowns((*table.shown, *table.fields)):
+        for row in rows:
             dependencies = " ".join(str(references[known.name]) for known in table.knowns(row) if known in knowns)
             SubElement(structure, element, valueReference=str(references[row.name]), dependencies=dependencies)
