@@ -1,8 +1,4 @@
-"""A vehicle over the made-up crossing: forces, energy and its residual over the speed (docs/understand/vehicle.md).
-
-python -m benchmarks.crossing_run --speeds 5 10 20 30 --picture forces.png
-python -m benchmarks.crossing_run --vehicle manchester --speeds 20 --steps 1e-4 5e-5
-"""
+"""A vehicle over the made-up crossing: forces, energy and its residual over the speed (docs/understand/vehicle.md)."""
 
 from __future__ import annotations
 

@@ -16,7 +16,7 @@ from pathlib import Path
 
 import fmpy
 
-from benchmarks.tables import read_options
+from benchmarks.tables import read_options, table
 
 EXAMPLES = Path(__file__).parents[1] / "examples" / "hosts"
 PYTHON = os.environ.get("HOSTS_PYTHON", sys.executable)
@@ -115,21 +115,16 @@ def cell(found: float | str, wanted: float) -> str:
     return "same" if found == wanted else f"{abs(found / wanted - 1.0):.0e}"
 
 
-def table(folder: Path) -> list[str]:
-    """Return the lines of the table."""
+def of_hosts(folder: Path) -> str:
+    """Return the table."""
     files = [(name, version) for name in CASES for version in (2, 3)]
-    lines = [
-        "| host | " + " | ".join(f"`{name}` {version}" for name, version in files) + " |",
-        "| --- |" + " --- |" * len(files),
-    ]
     paths = {(name, v): folder / ("" if v == 2 else "fmi3") / f"{name}.fmu" for name, v in files}
     wanted = {one: reference(path, CASES[one[0]]) for one, path in paths.items()}
-    by_fmpy = [cell(wanted[name, version], wanted[name, 2]) for name, version in files]
-    lines.append("| fmpy, one step | " + " | ".join(by_fmpy) + " |")
+    lines = [["fmpy, one step", *(cell(wanted[one], wanted[one[0], 2]) for one in files)]]
     for host, (_, _, does) in HOSTS.items():
         cells = [cell(run(host, paths[one], CASES[one[0]]), wanted[one[0], 2]) for one in files]
-        lines.append(f"| {host}, {does} | " + " | ".join(cells) + " |")
-    return lines
+        lines.append([f"{host}, {does}", *cells])
+    return table(["host", *(f"`{name}` {version}" for name, version in files)], lines)
 
 
 def main() -> None:
@@ -140,7 +135,7 @@ def main() -> None:
 Native FMUs of both versions of FMI: the difference of the number that a host reads from that of fmpy ({cases}).
 `python -m benchmarks.hosts dist/native` writes this page from runs of the scripts of `examples/hosts`, which are tests too.
 """
-    text = "\n".join([head, *table(arguments.folder), FOOT])
+    text = "\n".join([head, of_hosts(arguments.folder).rstrip("\n"), FOOT])
     print(text)
     if arguments.out:
         arguments.out.write_text(text, encoding="utf-8")

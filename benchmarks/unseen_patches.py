@@ -15,7 +15,7 @@ import numpy as np
 from scipy.interpolate import CubicSpline
 
 import contact
-from benchmarks.tables import read_options
+from benchmarks.tables import read_options, table
 from contact.geometry import profile, wheelset
 from contact.halfspace import norm
 
@@ -68,15 +68,14 @@ def main() -> None:
                 print(
                     f"case {k}: {load:.0f} N, dN {row[0]:+.4f}, dpmax {row[1]:+.4f}, L2 {row[2]:.4f}, {sol.n_patches} patches"
                 )
-    print("| profiles | method | N, mean / max | max pressure, mean / max | pressure L2, mean / max | not converged |")
-    print("| --- | --- | --- | --- | --- | --- |")
+    lines = []
     for (worn, method), rows in errors.items():
         e = np.abs(np.array(rows))
         cells = [f"{100 * e[:, i].mean():.2f} / {100 * e[:, i].max():.2f} %" for i in range(2)]
         cells.append(f"{e[:, 2].mean():.3f} / {e[:, 2].max():.3f}")
-        print(
-            "| " + " | ".join(["worn-like" if worn else "new", f"`{method}`", *cells, str(int(e[:, 3].sum()))]) + " |"
-        )
+        lines.append(["worn-like" if worn else "new", f"`{method}`", *cells, str(int(e[:, 3].sum()))])
+    names = (f"{name}, mean / max" for name in ("N", "max pressure", "pressure L2"))
+    print(table(["profiles", "method", *names, "not converged"], lines))
 
 
 if __name__ == "__main__":

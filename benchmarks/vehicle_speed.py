@@ -15,9 +15,6 @@ import time
 from dataclasses import replace
 from pathlib import Path
 
-import fmpy
-from fmpy.fmi2 import FMU2Slave
-
 from benchmarks.tables import read_options, table
 from contact.geometry import profile
 from contact_models.runs import scenario
@@ -27,6 +24,7 @@ from contact_models.vehicle.kernels.motion import move, prepare_contacts
 from contact_models.vehicle.simulation import PACE, ContactOptions, Simulation
 from contact_models.vehicle.spectra import Irregularities
 from contact_models.vehicle.track import Curve, Track
+from contact_models.wheelset.fmu import Fmu
 
 STEP, SHORT = 4.6e-4, 200  # [s], and steps of a piece that is timed
 SCENARIO = Path(__file__).parents[1] / "examples" / "scenarios" / "vehicle_300.toml"
@@ -96,26 +94,15 @@ def beside_the_fmu(path: Path, seconds: float) -> list[list[str]]:
     d, start, warm_up = given.declared, -12.0, round(85.0 / 15.0 / STEP)  # into the circle
     rows = lay(d.track, d.length, given.speed, (d.seed,), d.recording.settling)
     whole = Simulation(read("manchester"), rows, given.wheel, given.rail, d.friction, start=start)
-    description = fmpy.read_model_description(str(path))
-    references = {v.name: v.valueReference for v in description.modelVariables}
-    fmu = FMU2Slave(
-        guid=description.guid, unzipDirectory=fmpy.extract(str(path)), instanceName="vehicle",
-        modelIdentifier=description.coSimulation.modelIdentifier,
-    )  # fmt: skip
-    fmu.instantiate()
-    fmu.setupExperiment(startTime=0.0)
-    values = {"initial.distance": start, "resolution.step": STEP, "speed": given.speed(start)}
-    fmu.setReal([references[name] for name in values], list(values.values()))
-    fmu.enterInitializationMode()
-    fmu.exitInitializationMode()
     steps = round(seconds / STEP)
-    whole.advance(STEP, warm_up)
-    fmu.doStep(0.0, warm_up * STEP)
-    at = [time.process_time()]
-    whole.advance(STEP, steps)
-    at.append(time.process_time())
-    fmu.doStep(warm_up * STEP, steps * STEP)
-    at.append(time.process_time())
+    with Fmu(path, {"initial.distance": start, "resolution.step": STEP, "speed": given.speed(start)}) as fmu:
+        whole.advance(STEP, warm_up)
+        fmu.step(0.0, warm_up * STEP)
+        at = [time.process_time()]
+        whole.advance(STEP, steps)
+        at.append(time.process_time())
+        fmu.step(warm_up * STEP, steps * STEP)
+        at.append(time.process_time())
     return [
         [name, f"{steps * STEP / (end - begin):.2f}"]
         for name, begin, end in zip(("one kernel", "native FMU"), at, at[1:], strict=False)

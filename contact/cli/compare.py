@@ -11,9 +11,9 @@ from rich.console import Console
 
 from contact.cli import arguments, cases
 from contact.cli import options as opt
-from contact.cli.output import reported, require_endings
+from contact.cli.output import prepare, reported
 from contact.cli.progress import progress_bar
-from contact.cli.tables import show_study
+from contact.cli.tables import STUDY, show_study
 from contact.study import SELECTION
 from contact.study import compare as compare_methods
 from contact.study.compare import REFERENCE_ELEMENTS
@@ -59,7 +59,7 @@ def compare(
 
     Examples:  contact compare --y 3e-3 --yaw 2e-3 --out page.html   ·   contact compare cases.toml --all --out table.csv
     """
-    require_endings(out or [])
+    prepare(out, STUDY)
     arguments.require_use(context)
     given = vars(place) | vars(reading) | vars(amount)
     given |= {"side": side.value, "friction": friction, "curvatures": curvatures}

@@ -20,7 +20,7 @@ from contact.cli.tables import show_table
 from contact.errors import ContactError
 from contact.inp.columns import SIGNS
 from contact.inp.compare import TOLERANCE, Difference
-from contact.study.files import csv_of
+from contact.study.files import csv_of, require_writable
 
 #: Exit status where a difference is above the tolerance.
 DIFFERS = 1
@@ -69,7 +69,9 @@ def inp(
     """
     if signs not in SIGNS:
         raise ContactError(f"--signs {signs!r} is unknown; allowed: {', '.join(SIGNS)}")
-    _require_writable(out)
+    for path in out or []:
+        if require_writable(path, _ENDINGS) != ".csv":
+            require_extra("xarray")
     if contact_mat is not None and not contact_mat.is_dir():
         raise ContactError(f"--contact-mat {contact_mat} is not a folder")
     given = files.read(file)
@@ -139,16 +141,6 @@ def _with_those_before(given: Sequence[files.Case], wanted: set[int]) -> list[fi
         last = max((k for k, (_, case) in enumerate(chain) if case.number in wanted), default=-1)
         needed |= {place for place, _ in chain[: last + 1]}
     return [case for place, case in enumerate(given) if place in needed]
-
-
-def _require_writable(out: Sequence[Path] | None) -> None:
-    for path in out or []:
-        if path.suffix.lower() not in _ENDINGS:
-            raise ContactError(f"--out {path}: the ending {path.suffix!r} is unknown; allowed: {', '.join(_ENDINGS)}")
-        if not path.absolute().parent.is_dir():
-            raise ContactError(f"--out {path} cannot be written: there is no folder {str(path.parent)!r}")
-        if path.suffix.lower() in (".nc", ".mat"):
-            require_extra("xarray")
 
 
 def _write(path: Path, rows: Sequence[dict[str, Any]]) -> None:

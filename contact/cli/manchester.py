@@ -6,9 +6,9 @@ from typing import Annotated
 
 from contact.cli import options as opt
 from contact.cli.compare import All, Elements, Resolution, compared
-from contact.cli.output import reported, require_endings
+from contact.cli.output import prepare, reported
 from contact.cli.progress import progress_bar
-from contact.cli.tables import show_study
+from contact.cli.tables import STUDY, show_study
 from contact.study.compare import REFERENCE_ELEMENTS
 from contact.study.manchester import METHODS, NOTES
 from contact.study.manchester import manchester as compute
@@ -36,7 +36,7 @@ def manchester(
 
     Example:  contact manchester --method analyn+fastrip --method hertz+fastsim --out page.html
     """
-    require_endings(out or [])
+    prepare(out, STUDY)
     with progress_bar() as bar:
         found = compute(
             [*(methods or []), "all"] if every else (methods or METHODS),

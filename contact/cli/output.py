@@ -17,7 +17,7 @@ from contact.cli.extras import EXTRAS, absent_modules
 from contact.cli.groups import expanded
 from contact.errors import ContactError, PlausibilityWarning
 from contact.results import Status
-from contact.study.files import PICTURES, csv_of, require_ending, write
+from contact.study.files import PICTURES, csv_of, require_writable, write
 
 #: Names in messages of the library → the options that set them, where the names differ.
 _OPTIONS = {
@@ -143,20 +143,11 @@ def deliver(
         typer.echo(f"wrote {path}", err=True)
 
 
-def prepare(out: Sequence[Path] | None) -> None:
+def prepare(out: Sequence[Path] | None, texts: Sequence[str] = (".csv", ".json")) -> None:
     """Refuse, before the computation, files that cannot be written, and pictures if matplotlib is missing."""
-    for path in out or []:
-        require_ending(path, (".csv", ".json", *PICTURES))
-        if not path.absolute().parent.is_dir():
-            raise ContactError(f"{path} cannot be written: there is no folder {str(path.parent)!r}")
-    if any(path.suffix.lower() in PICTURES for path in out or []):
+    endings = {require_writable(path, (*texts, *PICTURES)) for path in out or []}
+    if endings.intersection(PICTURES):
         drawing()
-
-
-def require_endings(paths: Sequence[Path]) -> None:
-    """Raise a ContactError if a study cannot be written to one of the paths. Call it before the computation."""
-    for path in paths:
-        require_ending(path, (".html", ".md", ".json", ".csv", *PICTURES))
 
 
 def write_all(found: Any, paths: Sequence[Path]) -> None:

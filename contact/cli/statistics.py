@@ -8,9 +8,9 @@ from typing import Annotated
 import typer
 
 from contact.cli import options as opt
-from contact.cli.output import reported, require_endings
+from contact.cli.output import prepare, reported
 from contact.cli.progress import progress_bar
-from contact.cli.tables import show_study
+from contact.cli.tables import STUDY, show_study
 from contact.study.pairs import RESOLUTION
 from contact.study.statistics import ELEMENTS
 from contact.study.statistics import statistics as compute
@@ -43,7 +43,7 @@ def statistics(
 
     All cases take minutes. Examples:  contact statistics --cases 200   ·   contact statistics --stored ref.csv --out page.html
     """
-    require_endings(out or [])
+    prepare(out, STUDY)
     with progress_bar() as bar:
         found = compute(
             tangential,

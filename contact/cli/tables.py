@@ -45,6 +45,10 @@ def show_table(
     console.print(shown)
 
 
+#: Endings of the texts of a study.
+STUDY = (".html", ".md", ".json", ".csv")
+
+
 def show_study(found: Any, *, as_json: bool, out: Sequence[Path] | None, notes: Iterable[str] = ()) -> None:
     """Print the tables and notes of a study, or its JSON, and write its files."""
     if as_json:

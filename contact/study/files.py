@@ -30,6 +30,14 @@ def require_ending(path: str | Path, endings: Sequence[str]) -> str:
     return ending
 
 
+def require_writable(path: str | Path, endings: Sequence[str]) -> str:
+    """Return the same before a computation, and refuse a folder that does not exist."""
+    ending = require_ending(path, endings)
+    if not Path(path).absolute().parent.is_dir():
+        raise ContactError(f"{path} cannot be written: there is no folder {str(Path(path).parent)!r}")
+    return ending
+
+
 def write(path: str | Path, texts: Mapping[str, Callable[[], str]], figure: Callable[[], Any] | None = None) -> None:
     """Write to `path` the text for its ending, from the function in `texts`, or the figure as a picture.
 

@@ -17,7 +17,7 @@ from numpy.typing import ArrayLike
 from contact.arrays import Array, require_numbers
 from contact.errors import ContactError, require_integer, suggestion, warn
 from contact.pair import WheelRailPair, over_poses
-from contact.study.files import require_ending
+from contact.study import files
 
 #: Axes in the order of the tables' dimensions, and the units.
 AXES = {
@@ -116,7 +116,7 @@ class LookupTable:
         ImportError
             For .mat without scipy.
         """
-        ending = require_ending(path, ENDINGS)
+        ending = files.require_ending(path, ENDINGS)
         content = {**{f"bp_{name}": points for name, points in self.axes.items()}, **self.tables}
         try:
             if ending == ".npz":
@@ -141,10 +141,8 @@ class LookupTable:
 
 def require_writable(path: str | Path) -> None:
     """Raise, before the computation, what `LookupTable.write` would raise for the ending or the folder of `path`."""
-    if require_ending(path, ENDINGS) == ".mat":
+    if files.require_writable(path, ENDINGS) == ".mat":
         _savemat()
-    if not Path(path).absolute().parent.is_dir():
-        raise ContactError(f"{path} cannot be written: there is no folder {str(Path(path).parent)!r}")
 
 
 def estimate(

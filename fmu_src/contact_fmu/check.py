@@ -13,6 +13,7 @@ import typer
 from contact.arrays import Array
 from contact.cli.output import reported, stop
 from contact.errors import ContactError
+from contact.reading.columns import Dialect, number
 
 #: A unit in brackets after a name; an index has no letters.
 _UNIT = re.compile(r"\s*[\[(][^\[\]()]*[A-Za-z%°][^\[\]()]*[\])]$")
@@ -116,36 +117,24 @@ def read(path: Path) -> tuple[Array, dict[str, Array]]:
     if len(lines) < 3:
         raise ContactError(f"{path.name} has {len(lines)} lines; a heading and at least two rows are needed")
     separator = next((sign for sign in "\t;" if sign in lines[0]), ",")
+    dialect = Dialect(separator, comma=separator != ",")
     heading = [
-        re.sub(r"\s*[\[(][^\[\]()]*[A-Za-z/%°^*. ]+[^\[\]()]*[\])]\s*$", "", c.strip())
-        for c in _cells(lines[0], separator)
+        re.sub(r"\s*[\[(][^\[\]()]*[A-Za-z/%°^*. ]+[^\[\]()]*[\])]\s*$", "", c.strip()) for c in dialect.cells(lines[0])
     ]
     table = []
-    for number, line in enumerate(lines[1:], 2):
-        cells = _cells(line, separator)
+    for k, line in enumerate(lines[1:], 2):
+        cells = dialect.cells(line)
         if len(cells) != len(heading):
-            raise ContactError(f"{path.name}, line {number}: {len(cells)} values under {len(heading)} names")
-        table.append([_number(cell, separator) for cell in cells])
+            raise ContactError(f"{path.name}, line {k}: {len(cells)} values under {len(heading)} names")
+        table.append([number(cell, dialect.comma) for cell in cells])
     names = [re.sub(r"^.*[./:|\\]", "", name).strip().lower() for name in heading]
     if "time" not in names and "t" not in names:
         raise ContactError(f"{path.name} has no column time; its columns: {', '.join(heading[:8])} …")
     at = names.index("time") if "time" in names else names.index("t")
-    rows = np.array(table)
+    rows = np.array(table, dtype=np.float64)  # None, of what is no number, is NaN
     if not np.isfinite(rows[:, at]).all():
         raise ContactError(f"{path.name}: a time is no number")
     return rows[:, at], {name: rows[:, k] for k, name in enumerate(heading) if k != at}
-
-
-def _cells(line: str, separator: str) -> list[str]:
-    return next(csv.reader([line], delimiter=separator))
-
-
-def _number(cell: str, separator: str) -> float:
-    """Return a number, or NaN for anything else."""
-    try:
-        return float(cell.replace(",", ".") if separator != "," else cell)
-    except ValueError:
-        return np.nan
 
 
 def _rows(path: Path, there: Array, time: Array) -> Array:

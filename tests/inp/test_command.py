@@ -57,7 +57,7 @@ def test_check_reads_and_tells_what_is_refused(case, tmp_path):
         (("--signs", "mine"), "--signs 'mine' is unknown"),
         (("--cases", "x"), "--cases 'x' is no range"),
         (("--cases", "9"), "has no case of the file; allowed: 1 to 2"),
-        (("--out", "rows.txt"), "the ending '.txt' is unknown"),
+        (("--out", "rows.txt"), "a file ends in one of .csv, .nc, .mat"),
         (("--contact-mat", "nowhere"), "is not a folder"),
         (("--compare", "nowhere.out"), "is missing"),
     ],
