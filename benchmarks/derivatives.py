@@ -182,7 +182,7 @@ def _prices_of(pair: WheelRailPair, own: contact.Solver, rng: np.random.Generato
     def at_height(derivatives: bool) -> None:
         pair.solve_given(0, 0.0, given)
         if derivatives:
-            pair._derive(0, given, None, None, None)
+            pair._derive(0)
 
     def of_patch(derivatives: bool) -> None:
         own.forces(patch.separation, patch.creepage, load=patch.load, derivatives=derivatives)

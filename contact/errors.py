@@ -88,7 +88,7 @@ def require_number(
     ContactError
         If the value is not a real number, not finite or outside the range.
     """
-    number = real(name, value)
+    number = value if type(value) is float else real(name, value)
     # a comparison with NaN is a trap where floating-point traps are on
     above = math.isfinite(number) and (number > minimum if open_minimum else number >= minimum)
     if not above or number > maximum:

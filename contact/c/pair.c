@@ -244,9 +244,8 @@ int wr_pair_derivatives(void *memory, const wr_pair_input *input, double *jacobi
     TRY(check_input(input, &head->patch));
     TRY(aligned(jacobian, A_jacobian));
     wr_pair_answer answer;
-    wr_motion motion = input->motion;
     TRY(solve_pair(memory, 0, input, &answer));
-    CALL_PAIR(derivatives, head, work_of(memory), input->height, &motion, jacobian);
+    CALL_PAIR(derivatives, head, work_of(memory), input->height, jacobian);
     return code_of(answer.total.status);
 }
 

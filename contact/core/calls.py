@@ -16,7 +16,7 @@ import ctypes
 import inspect
 import struct
 from collections.abc import Callable
-from functools import cache, update_wrapper
+from functools import cache, cached_property, update_wrapper
 from typing import Annotated, Any, NamedTuple, get_args, get_origin, get_type_hints
 
 import numpy as np
@@ -72,13 +72,7 @@ def _packer(kind: Any) -> _Pack:
         packers = [_packer(of) for of in get_args(kind)]
         return lambda value: b"".join([pack_one(one) for pack_one, one in zip(packers, value, strict=True)])
     members = [(name, _packer(of)) for name, of in members_of(kind)]
-
-    def pack_group(value: Any) -> bytes:
-        if type(value) is Packed:
-            return value.words
-        return b"".join([pack_member(getattr(value, name)) for name, pack_member in members])
-
-    return pack_group
+    return lambda value: b"".join([pack_member(getattr(value, name)) for name, pack_member in members])
 
 
 def members_of(kind: Any) -> list[tuple[str, Any]]:
@@ -99,8 +93,6 @@ def _array_packer(dtype: np.dtype, ndim: int) -> _Pack:
     to_bytes = struct.Struct(f"{ARRAY_WORDS + 2 * ndim}q").pack
 
     def pack_array(value: Any) -> bytes:
-        if type(value) is Packed:
-            return value.words
         if (
             not isinstance(value, np.ndarray)
             or value.ndim != ndim
@@ -117,8 +109,6 @@ def _array_packer(dtype: np.dtype, ndim: int) -> _Pack:
 
 def _record_packer(dtype: np.dtype) -> _Pack:
     def pack_record(value: Any) -> bytes:
-        if type(value) is Packed:
-            return value.words
         if not isinstance(value, np.void) or value.dtype != dtype:
             raise TypeError(f"a record {dtype} is needed, not {_described(value)}")
         return _INTEGER(np.frombuffer(value, np.uint8).ctypes.data)
@@ -139,7 +129,6 @@ class Entry:
     def __init__(self, function: Callable[..., Any]) -> None:
         update_wrapper(self, function)
         self.function = function
-        self._call: Callable[..., Any] | None = None
         if COMPILING:
             from contact.core.marks import kernel
 
@@ -170,15 +159,13 @@ class Entry:
         return () if kind is type(None) else (kind,)
 
     def __call__(self, *arguments: Any, **named: Any) -> Any:
-        if self._call is None:
-            self._call = self._prepared()
         if named:
-            bound = inspect.signature(self.function).bind(*arguments, **named)
-            arguments = bound.args
-        return self._call(*arguments)
+            arguments = inspect.signature(self.function).bind(*arguments, **named).args
+        return self.call(*arguments)
 
-    def _prepared(self) -> Callable[..., Any]:
-        """Return the function that packs arguments, calls the library and unpacks results."""
+    @cached_property
+    def call(self) -> Callable[..., Any]:
+        """The function that packs arguments, calls the library and unpacks results, for who calls it many times."""
         packers = [_packer(kind) for kind in self.arguments.values()]
         function, kinds = _function(self), self.results
         n, name = len(packers), self.function.__qualname__
@@ -189,7 +176,9 @@ class Entry:
             if len(arguments) != n:
                 raise TypeError(f"{name} takes {n} arguments, not {len(arguments)}")
             results = results_type()
-            function(b"".join([pack_one(one) for pack_one, one in zip(packers, arguments, strict=True)]), results)
+            both = zip(packers, arguments, strict=True)
+            words = [one.words if type(one) is Packed else pack_one(one) for pack_one, one in both]
+            function(b"".join(words), results)
             if not kinds:
                 return None
             values = unpack(results)

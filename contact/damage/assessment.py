@@ -247,6 +247,6 @@ def _arrays(solution: Solution) -> tuple[Array, Array, np.record, np.record]:
     case.vx, case.vy, case.phi = creepage.longitudinal, creepage.lateral, creepage.spin
     result.Fx, result.Fy, result.Mz, result.N = solution.Fx, solution.Fy, solution.Mz, solution.N
     result.pmax, result.area, result.slip_area = solution.max_pressure, solution.area, solution.slip_area
-    result.status = solution.status
+    result.status, result.bend = solution.status, solution.bend
     result.power, result.pressure_y = solution.power_per_metre, solution.pressure_y
     return strips, fields, case, result

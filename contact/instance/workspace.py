@@ -205,8 +205,7 @@ def derivative_arrays(size: tuple[int, int, int], of_pair: PairArrays) -> Deriva
     """Return the arrays that the derivatives of a wheel-rail pair need besides its own."""
     full, search = Size(*size, int(of_pair.workspace.space.tangent.size > 1), 1), of_pair.search
     if isinstance(search, SurfaceSearch):
-        beside = surface_search(search.wheel, search.rail, search.separations.shape[2])
-        near = _laid(memory.lay_beside, beside, of_pair)
+        near = surface_search(search.wheel, search.rail, search.separations.shape[2])
     else:
-        near = _laid(memory.lay_neighbour, full, of_pair)
-    return _laid(memory.lay_derivative_arrays, full, near)
+        near = _laid(memory.lay_near_search, full, search)
+    return _laid(memory.lay_derivatives, full, near, of_pair)

@@ -31,6 +31,7 @@ Patches = Annotated[Any, Shape(records.PATCH, 1)]
 Patch = Annotated[Any, Shape(records.PATCH, 0)]
 Lobes = Annotated[Any, Shape(records.LOBE, 1)]
 Contacts = Annotated[Any, Shape(records.CONTACT, 1)]
+Contact = Annotated[Any, Shape(records.CONTACT, 0)]
 Totals = Annotated[Any, Shape(records.TOTAL, 1)]
 Total = Annotated[Any, Shape(records.TOTAL, 0)]
 Damages = Annotated[Any, Shape(records.DAMAGE, 1)]
@@ -280,8 +281,9 @@ class PairArrays(NamedTuple, Generic[Kind]):
     `search`, `workspace` and `damage_parameters` hold sizes and constants. `case` holds methods, material and friction.
     `patch_case` holds the same for the current patch. `memory` is the start for the next call: the number of patches,
     then one piece for each of MAX_PATCHES, then the deflection of the rail. `rail` holds its springs, `roots` and `moved`
-    are for the search of the deflection, the last root for that of the height. `offset` is the displacement of the wheel
-    against its wheelset, `displaced` the motion with it. `contacts` and `total` are the results. `ledger` accumulates damage.
+    are for the search of the deflection, the last root for that of the height. `given` is the motion that is asked for,
+    `offset` the displacement of the wheel against its wheelset, `displaced` the motion with it. `contacts` and `total` are the
+    results. `ledger` accumulates damage.
     """
 
     search: Kind
@@ -299,6 +301,7 @@ class PairArrays(NamedTuple, Generic[Kind]):
     rail: Springs
     roots: Roots
     moved: Givens
+    given: Givens
     offset: Offsets
     displaced: Givens
 
@@ -307,7 +310,7 @@ class PairArrays(NamedTuple, Generic[Kind]):
 class DerivativeArrays(NamedTuple, Generic[Kind]):
     """What the derivatives of a pair need besides its own arrays (`pair_jacobian`).
 
-    `neighbour` solves neighbouring problems in the scratch of the pair. `numbers` are the members of the record
+    `neighbour` solves neighbouring problems in the scratch of the pair. `numbers` are the members of its record
     `given`. `start`, `patches` and `middle` are warm start, patches and forces of the middle one, `forces` those of the last
     one. `by_creep[patch, creep]` are derivatives of the forces by the creepages, `creeps[patch, creep]` those of the creepages
     by the motion. `row` is a single row of fields. `tangents` are those of the patches that are `linear`, which is 1 or 0.
@@ -316,7 +319,6 @@ class DerivativeArrays(NamedTuple, Generic[Kind]):
 
     neighbour: PairArrays[Kind]
     numbers: Numbers
-    given: Givens
     start: Numbers
     patches: Patches
     middle: Numbers

@@ -9,7 +9,7 @@ wheelset with the centre C' = Q + d - t l' and these angles.
 import math
 
 from contact.core import entry, kernel
-from contact.kernels.arrays import Given, PairArrays, Search, SurfaceSearch
+from contact.kernels.arrays import PairArrays, Search, SurfaceSearch
 from contact.kernels.elastic_rail import solve_on_rail
 from contact.kernels.enumerations import Height, NoAnswer
 from contact.kernels.geometry.search import axle
@@ -77,28 +77,31 @@ def turn_memory(memory, backwards):
 
 
 @kernel
-def solve_flexible(mode, amount, given, arrays):
+def solve_flexible(mode, amount, arrays):
     """As `_solve_forwards`, also for a wheelset that rolls backwards on a rail that is constant along the track."""
-    return _solve_either_way(mode, amount, False, given, arrays)
+    return _solve_either_way(mode, amount, False, arrays)
 
 
 @kernel
-def solve_rigid(given, arrays):
+def solve_rigid(arrays):
     """As `solve_flexible` at a given height, undisplaced on a rigid rail, with what `solve_briefly` gives."""
+    given = arrays.given[0]
     if abs(given.roll) > LARGEST_ANGLE or abs(given.yaw) > LARGEST_ANGLE:
         return NoAnswer.TURNED.value
-    return _solve_either_way(Height.GIVEN.value, 0.0, True, given, arrays)
+    return _solve_either_way(Height.GIVEN.value, 0.0, True, arrays)
 
 
 @kernel
-def _solve_either_way(mode, amount, rigid, given, arrays):
+def _solve_either_way(mode, amount, rigid, arrays):
     """Solve as `solve_flexible` or, if all is `rigid`, as `solve_rigid`."""
-    memory, backwards = arrays.memory, given.vx < 0.0
+    memory, given = arrays.memory, arrays.given[0]
+    backwards = given.vx < 0.0
     turn_memory(memory, backwards)
-    if not backwards:
-        return solve_briefly(given, arrays) if rigid else _solve_forwards(mode, amount, given, arrays)
-    reflect(given, arrays.offset[0])
+    if backwards:
+        reflect(given, arrays.offset[0])
     code = solve_briefly(given, arrays) if rigid else _solve_forwards(mode, amount, given, arrays)
+    if not backwards:
+        return code
     reflect(given, arrays.offset[0])
     _reflect_answer(max(code, 0), arrays.contacts, arrays.total[0])
     memory[0] = -memory[0]
@@ -128,12 +131,12 @@ def _solve_forwards(mode, amount, given, arrays):
 
 
 @entry
-def solve_on_profiles(mode: int, amount: float, given: Given, arrays: PairArrays[Search]) -> int:
+def solve_on_profiles(mode: int, amount: float, arrays: PairArrays[Search]) -> int:
     """As `solve_flexible`, of constant profiles."""
-    return solve_flexible(mode, amount, given, arrays)
+    return solve_flexible(mode, amount, arrays)
 
 
 @entry
-def solve_on_surfaces(mode: int, amount: float, given: Given, arrays: PairArrays[SurfaceSearch]) -> int:
+def solve_on_surfaces(mode: int, amount: float, arrays: PairArrays[SurfaceSearch]) -> int:
     """As `solve_flexible`, of surfaces that change along the way."""
-    return solve_flexible(mode, amount, given, arrays)
+    return solve_flexible(mode, amount, arrays)

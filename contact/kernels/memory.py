@@ -278,19 +278,19 @@ def lay_pair(
     rail, end = records(block, end, 1, ELASTIC_RAIL)
     roots, end = records(block, end, 3, ROOT)
     moved, end = records(block, end, 1, GIVEN)
+    given, end = records(block, end, 1, GIVEN)
     offset, end = records(block, end, 1, WHEEL_OFFSET)
     displaced, end = records(block, end, 1, GIVEN)
     arrays = PairArrays(
         search, workspace, case, patch_case, result, memory, parameters, damage_fields, damage, contacts, total, ledger,
-        rail, roots, moved, offset, displaced,
+        rail, roots, moved, given, offset, displaced,
     )  # fmt: skip
     return arrays, end
 
 
 @shared
-def lay_neighbour(block: Array, end: int, size: Size, arrays: PairArrays) -> tuple[PairArrays, int]:
-    """Return the arrays of a pair that is solved beside that of `arrays`, whose scratch it uses, and the new end."""
-    search = arrays.search
+def lay_near_search(block: Array, end: int, size: Size, search: Search) -> tuple[Search, int]:
+    """Return the arrays of a search of neighbouring poses, in the scratch of `search`, and the new end."""
     motion, end = records(block, end, 1, MOTION)
     patches, end = records(block, end, MAX_PATCHES, PATCH)
     separations, end = cube(block, end, MAX_PATCHES, len(Sep), size.n_samples)
@@ -298,32 +298,27 @@ def lay_neighbour(block: Array, end: int, size: Size, arrays: PairArrays) -> tup
         search.wheel, search.rail, motion, search.grid, patches, separations, search.line, search.placed, search.lobes,
         search.wheel_plane, search.rail_plane, search.case, search.across, search.work, search.strips, search.result,
     )  # fmt: skip
-    return lay_beside(block, end, near, arrays)
+    return near, end
 
 
 @shared
-def lay_beside(block: Array, end: int, near: Search, arrays: PairArrays) -> tuple[PairArrays, int]:
-    """As `lay_neighbour`, around the search `near`."""
+def lay_derivatives(
+    block: Array, end: int, size: Size, near: Search, arrays: PairArrays
+) -> tuple[DerivativeArrays, int]:
+    """Return the arrays for the derivatives of a pair, whose neighbours are found by the search `near`, and the new end."""
     memory, end = vector(block, end, arrays.memory.size)
     case, end = records(block, end, 2, CASE)
     patch_case, end = records(block, end, 1, CASE)
     result, end = records(block, end, 2, RESULT)
     contacts, end = records(block, end, MAX_PATCHES, CONTACT)
     total, end = records(block, end, 1, TOTAL)
-    displaced, end = records(block, end, 1, GIVEN)
-    beside = PairArrays(
-        near, arrays.workspace, case, patch_case, result, memory, arrays.damage_parameters, arrays.damage_fields, arrays.damage,
-        contacts, total, arrays.ledger, arrays.rail, arrays.roots, arrays.moved, arrays.offset, displaced,
-    )  # fmt: skip
-    return beside, end
-
-
-@shared
-def lay_derivative_arrays(block: Array, end: int, size: Size, near: PairArrays) -> tuple[DerivativeArrays, int]:
-    """Return the arrays for the derivatives of a pair around those of its neighbours, and the new end."""
     numbers, _ = vector(block, end, Moved.RAIL_ROLL_RATE + 1)
     given, end = records(block, end, 1, GIVEN)
-    start, end = vector(block, end, near.memory.size)
+    beside = PairArrays(
+        near, arrays.workspace, case, patch_case, result, memory, arrays.damage_parameters, arrays.damage_fields, arrays.damage,
+        contacts, total, arrays.ledger, arrays.rail, arrays.roots, arrays.moved, given, arrays.offset, arrays.displaced,
+    )  # fmt: skip
+    start, end = vector(block, end, arrays.memory.size)
     patches, end = records(block, end, MAX_PATCHES, PATCH)
     middle, end = vector(block, end, PAIR_ROWS)
     forces, end = vector(block, end, PAIR_ROWS)
@@ -336,6 +331,6 @@ def lay_derivative_arrays(block: Array, end: int, size: Size, near: PairArrays) 
     sides, end = vector(block, end, len(Moved))
     jacobian, end = matrix(block, end, PAIR_ROWS, len(Moved))
     derivatives = DerivativeArrays(
-        near, numbers, given, start, patches, middle, forces, by_creep, creeps, row, tangents, linear, sides, jacobian
+        beside, numbers, start, patches, middle, forces, by_creep, creeps, row, tangents, linear, sides, jacobian
     )
     return derivatives, end

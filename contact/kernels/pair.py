@@ -193,8 +193,8 @@ def _solve(n, pressed, brief, enters, arrays):
             if enters and _enters(arrays):
                 enter(patch, n_strips, damage, arrays)
     total.z, total.n_patches = motion.z, n
-    compare_forces(total)
     mirror_answer(motion.mirror, n, arrays.contacts, total)
+    compare_forces(motion.mirror, total)
     return stiffness / normal if normal > 0.0 else 0.0
 
 

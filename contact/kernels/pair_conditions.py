@@ -5,7 +5,7 @@ f = 0, df/dz dz + df/dq dq = 0, the column of q gains the column of z times dz/d
 """
 
 from contact.core import entry, kernel
-from contact.kernels.arrays import DerivativeArrays, Given, PairArrays, Search, SurfaceSearch
+from contact.kernels.arrays import DerivativeArrays, PairArrays, Search, SurfaceSearch
 from contact.kernels.enumerations import Height
 from contact.kernels.flexible import displace, reflect
 from contact.kernels.geometry.prepare import move
@@ -32,9 +32,10 @@ def _clear_column(jacobian, j):
 
 @kernel
 def _touch(derivatives):
-    """Return z at first touch at the pose of `derivatives.given` [m]."""
-    search = derivatives.neighbour.search
-    move(derivatives.given[0], search.motion[0])
+    """Return z at first touch at the pose of the neighbour [m]."""
+    near = derivatives.neighbour
+    search = near.search
+    move(near.given[0], search.motion[0])
     return begin(search, search.motion[0].z)[1]
 
 
@@ -126,18 +127,18 @@ def _refer_to_wheelset(given, arrays, derivatives):
     """Refer columns and moments to the wheelset instead of the rigid one that has the displaced wheel (`flexible`)."""
     jacobian, numbers, forces = derivatives.jacobian, derivatives.numbers, derivatives.middle
     tape = arrays.search.motion[0].mirror * arrays.search.motion[0].tape
-    moved = arrays.displaced
-    derivatives.given[0] = given
-    x, y, z = displace(derivatives.given[0], arrays.offset[0], tape, moved)
+    moved, near = arrays.displaced, derivatives.neighbour.given
+    near[0] = given
+    x, y, z = displace(near[0], arrays.offset[0], tape, moved)
     for j in range(Moved.ROLL, Moved.YAW_RATE + 1):
         if Moved.VX <= j <= Moved.VZ:
             continue
         before = numbers[j]
         numbers[j] = before + _SHIFT
-        high = displace(derivatives.given[0], arrays.offset[0], tape, moved)
+        high = displace(near[0], arrays.offset[0], tape, moved)
         speeds = moved[0].vx, moved[0].vy, moved[0].vz
         numbers[j] = before - _SHIFT
-        low = displace(derivatives.given[0], arrays.offset[0], tape, moved)
+        low = displace(near[0], arrays.offset[0], tape, moved)
         numbers[j] = before
         per = 0.5 / _SHIFT
         dx, dy, dz = per * (high[0] - low[0]), per * (high[1] - low[1]), per * (high[2] - low[2])
@@ -166,7 +167,7 @@ def _derive_forwards(mode, given, arrays, derivatives):
     total, rail, numbers = arrays.total[0], arrays.rail[0], derivatives.numbers
     motion = arrays.search.motion[0]
     _, _, z = displace(given, arrays.offset[0], motion.mirror * motion.tape, arrays.displaced)
-    derivatives.given[0] = arrays.displaced[0]
+    derivatives.neighbour.given[0] = arrays.displaced[0]
     numbers[Moved.Z] = total.z + z
     numbers[Moved.RAIL_Y] += rail.dy
     numbers[Moved.RAIL_Z] += rail.dz
@@ -194,8 +195,9 @@ def _derive_forwards(mode, given, arrays, derivatives):
 
 
 @kernel
-def derive_pair(mode, given, arrays, derivatives):
+def derive_pair(mode, arrays, derivatives):
     """As `_derive_forwards`, also for a wheelset that rolls backwards: the derivatives of what is seen in the mirror."""
+    given = arrays.given[0]
     if not given.vx < 0.0:
         return _derive_forwards(mode, given, arrays, derivatives)
     memory, jacobian = arrays.memory, derivatives.jacobian
@@ -214,16 +216,14 @@ def derive_pair(mode, given, arrays, derivatives):
 
 
 @entry
-def derive_on_profiles(
-    mode: int, given: Given, arrays: PairArrays[Search], derivatives: DerivativeArrays[Search]
-) -> int:
+def derive_on_profiles(mode: int, arrays: PairArrays[Search], derivatives: DerivativeArrays[Search]) -> int:
     """As `derive_pair`, of constant profiles."""
-    return derive_pair(mode, given, arrays, derivatives)
+    return derive_pair(mode, arrays, derivatives)
 
 
 @entry
 def derive_on_surfaces(
-    mode: int, given: Given, arrays: PairArrays[SurfaceSearch], derivatives: DerivativeArrays[SurfaceSearch]
+    mode: int, arrays: PairArrays[SurfaceSearch], derivatives: DerivativeArrays[SurfaceSearch]
 ) -> int:
     """As `derive_pair`, of surfaces that change along the way."""
-    return derive_pair(mode, given, arrays, derivatives)
+    return derive_pair(mode, arrays, derivatives)

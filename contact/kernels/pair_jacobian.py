@@ -179,10 +179,10 @@ def _roll_moved(k, samples, n, workspace, derivatives):
 
 @kernel
 def _locate(derivatives):
-    """Describe the patches at the pose of `derivatives.given`. Return their number."""
-    search = derivatives.neighbour.search
-    move(derivatives.given[0], search.motion[0])
-    return settle(Height.GIVEN, 0.0, search)
+    """Describe the patches at the pose of the neighbour. Return their number."""
+    near = derivatives.neighbour
+    move(near.given[0], near.search.motion[0])
+    return settle(Height.GIVEN, 0.0, near.search)
 
 
 @kernel
@@ -309,7 +309,7 @@ def _derive_by_velocity(j, n, derivatives):
     speed = max(numbers[Moved.VX], slowest)
     before = numbers[j]
     numbers[j] = before + 1.0
-    move(derivatives.given[0], motion)
+    move(derivatives.neighbour.given[0], motion)
     numbers[j] = before
     faster = max(before + 1.0, slowest) if j == Moved.VX else speed
     for k in range(n):
@@ -325,7 +325,7 @@ def _derive_by_velocity(j, n, derivatives):
 
 @kernel
 def derive(arrays, is_there, by_load, derivatives):
-    """Fill `derivatives.jacobian` at the pose `derivatives.given` of the rigid wheelset and rail. Return the number of patches.
+    """Fill `derivatives.jacobian` at the pose `neighbour.given` of the rigid wheelset and rail. Return the number of patches.
 
     `by_load` says that z will follow a load. Then it follows about already, as the row HEIGHT says: at one height the wheel
     would sink or lift by far more than it does, and the difference of two large changes would remain. `arrays` holds the last
@@ -346,7 +346,7 @@ def derive(arrays, is_there, by_load, derivatives):
         clear_contact(near.contacts[k])
     for i in range(near.memory.size):
         near.memory[i] = arrays.memory[i]
-    move(derivatives.given[0], near.search.motion[0])
+    move(near.given[0], near.search.motion[0])
     solved = is_there and arrays.total[0].n_patches == 1 and _take_solved(arrays, derivatives)
     n = 1 if solved else _locate(derivatives)
     if n <= 0:

@@ -3,7 +3,7 @@
 import math
 
 from contact.core import entry, kernel
-from contact.kernels.arrays import Damage, Result, Total
+from contact.kernels.arrays import Contact, Damage, Motion, Result, Total
 from contact.kernels.damage.assess import clear_damage
 from contact.kernels.enumerations import Status
 from contact.kernels.geometry.search import axle
@@ -77,10 +77,10 @@ def add_wrench(contact, pressure, share, motion, total):
     total.used_friction += contact.used_friction * contact.N
 
 
-@kernel
-def compare_forces(total):
-    """Set what compares the summed forces on the right side: Q, Y, their ratio, and the used friction."""
-    total.Q, total.Y = -total.Fz, -total.Fy
+@entry
+def compare_forces(mirror: float, total: Total) -> None:
+    """Set what compares the summed forces: Q, Y, their ratio, and the used friction. `mirror` is -1 on the left side."""
+    total.Q, total.Y = -total.Fz, -mirror * total.Fy
     total.Y_over_Q = total.Y / total.Q if total.Q > 0.0 else 0.0
     total.used_friction = total.used_friction / total.N if total.N > 0.0 else 0.0
 
@@ -119,9 +119,11 @@ def add_results(result, damage, share, total):
 
 
 @entry
-def add_patch(result: Result, damage: Damage, share: float, total: Total) -> None:
-    """As `add_results`, of a patch that Python solves."""
+def add_patch(contact: Contact, result: Result, damage: Damage, share: float, motion: Motion, total: Total) -> None:
+    """Add a patch that Python has solved, on either side. Its plane is that of elements, as on changing surfaces."""
+    add_wrench(contact, (0.0, 0.0, 0.0, 0.0), share, motion, total)
     add_results(result, damage, share, total)
+    total.gap_error, total.bend = max(total.gap_error, contact.gap_error), max(total.bend, result.bend)
 
 
 @kernel

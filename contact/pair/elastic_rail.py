@@ -60,10 +60,10 @@ class ElasticRail:
         forces = self.preload_y + cy / step * last[0], self.preload_z + cz / step * last[1]
         return ElasticRail(self.ky + cy / step, self.kz + cz / step, *forces)
 
-    def record(self) -> tuple[float, float, float, float]:
-        """Return ky, kz, preload_y, preload_z as the kernel uses them: 0 is rigid."""
+    def record(self) -> tuple[float, ...]:
+        """Return the numbers in the order of the record ELASTIC_RAIL, where a stiffness of 0 is rigid, before a solution."""
         ky, kz = (0.0 if k == math.inf else k for k in (self.ky, self.kz))
-        return ky, kz, self.preload_y, self.preload_z
+        return ky, kz, self.preload_y, self.preload_z, 0.0, 0.0, 0
 
 
 def balanced(solve: Callable[[float, float], PairSolution], rail: ElasticRail, fixed: bool) -> PairSolution:

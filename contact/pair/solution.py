@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from operator import itemgetter
 from typing import Any, NamedTuple
 
@@ -15,8 +15,8 @@ from contact.damage.assessment import assess
 from contact.geometry.records import Patch, Pose, contact_angle
 from contact.geometry.surfaces import SurfacePatch
 from contact.inputs.creepage import Creepage
-from contact.kernels.records import CONTACT, TOTAL
-from contact.kernels.resultants import add_patch
+from contact.kernels.records import CONTACT, MOTION, TOTAL
+from contact.kernels.resultants import add_patch, compare_forces
 from contact.results import PairJacobian, Solution, Status
 from contact.results.later import STATES, MadeLater, reader
 from contact.results.solution import RENAMED
@@ -290,68 +290,38 @@ def of_patches(
     """Return the action of all patches on the wheelset at the height `z` [m]; `spin` is the rotation of the wheel [rad/s].
 
     The patches' x counts from a point `ahead` of the wheelset's centre [m].
-    Sums and maxima are those of the kernel of `WheelRailPair`.
+    The kernel of `WheelRailPair` adds them up.
     """
-    centre = np.array([-ahead, pose.y, z - nominal_radius])
-    force, moment = np.zeros(3), np.zeros(3)
-    contacts = [_contact(one) for one in found]
-    for contact, one in zip(contacts, found, strict=True):
-        own = np.array([contact.Fx, contact.Fy, -contact.N]) @ one.axes
-        force += own
-        moment += np.array([contact.Mx, contact.My, contact.Mz]) @ one.axes
-        moment += np.cross(np.array(contact.position) - centre, own)
-    Q, Y = -float(force[2]), -float(force[1]) if side == "right" else float(force[1])
-    total = np.zeros(1, TOTAL)[0]
-    total.status = Status.NO_CONTACT
-    for one in found:
-        assessed = assess(one.solution, one.patch.rolling_radius)
+    total, contacts, motion = np.zeros(1, TOTAL), np.zeros(len(found), CONTACT), np.zeros(1, MOTION)[0]
+    motion.y, motion.z, motion.radius, motion.changing = pose.y, z, nominal_radius, 1
+    whole = total[0]
+    whole.status, whole.z = Status.NO_CONTACT, z
+    for one, contact in zip(found, contacts, strict=True):
+        _report(one, contact)
         if one.solution.status is not Status.NO_CONTACT:
-            add_patch(assessed.result, assessed.damage, one.patch.share, total)
-    N = sum(contact.N for contact in contacts)
-    return PairSolution(
-        force=force,
-        moment=moment,
-        Q=Q,
-        Y=Y,
-        Y_over_Q=Y / Q if Q > 0.0 else 0.0,
-        used_friction=sum(c.used_friction * c.N for c in contacts) / N if N > 0.0 else 0.0,
-        z=z,
-        contacts=tuple(contacts),
-        max_pressure=float(total.pmax),
-        area=float(total.area),
-        slip_area=float(total.slip_area),
-        power_per_metre=float(total.power),
-        damage=PairDamage(*(float(total[name]) for name in PairDamage._fields)),
-        status=Status(total.status),
-        gap_error=max((c.gap_error for c in contacts), default=0.0),
-        spin=spin,
-        bend=max((one.solution.bend for one in found), default=0.0),
+            assessed = assess(one.solution, one.patch.rolling_radius)
+            add_patch(contact, assessed.result, assessed.damage, one.patch.share, motion, whole)
+    whole.My -= ahead * whole.Fz
+    whole.Mz += ahead * whole.Fy
+    compare_forces(1.0 if side == "right" else -1.0, whole)
+    made = PairSolution.of_kernel(
+        total.view(np.uint8).data, contacts.view(np.uint8).data, len(found), (0.0, 0.0), spin, None
     )
+    patches = zip(made.contacts, found, strict=True)
+    return replace(made, contacts=tuple(replace(c, patch=one.patch, solution=one.solution) for c, one in patches))
 
 
-def _contact(one: Solved) -> Contact:
-    """Return the contact of a solved patch. The pressure's moments are those about the origin of its frame."""
+def _report(one: Solved, contact: np.record) -> None:
+    """Fill the contact of a solved patch. The pressure's moments are those about the origin of its frame."""
     patch, s, share = one.patch, one.solution, one.patch.share
     pressing = s.p * s.dA
-    return Contact(
-        N=share * s.N,
-        Fx=share * s.Fx,
-        Fy=share * s.Fy,
-        Mx=-share * float((s.y * pressing).sum()),
-        My=share * float((s.x * pressing).sum()),
-        Mz=share * s.Mz,
-        position=patch.wheel_position,
-        angle=patch.angle,
-        area=share * s.area,
-        max_pressure=s.max_pressure,
-        creepage=s.creepage,
-        approach=s.approach,
-        on_rail=patch.on_rail,
-        on_wheel=patch.on_wheel,
-        used_friction=s.used_friction,
-        status=s.status,
-        gap_error=s.gap_error,
-        pitch=math.asin(min(max(float(one.axes[2, 0]), -1.0), 1.0)),
-        patch=patch,
-        solution=s,
-    )
+    contact.N, contact.Fx, contact.Fy, contact.Mz = share * s.N, share * s.Fx, share * s.Fy, share * s.Mz
+    contact.Mx = -share * float((s.y * pressing).sum())
+    contact.My = share * float((s.x * pressing).sum())
+    contact.x, contact.y, contact.z = patch.wheel_position
+    contact.angle, contact.pitch = patch.angle, math.asin(min(max(float(one.axes[2, 0]), -1.0), 1.0))
+    contact.area, contact.pmax, contact.approach = share * s.area, s.max_pressure, s.approach
+    creepage = s.creepage
+    contact.longitudinal, contact.lateral, contact.spin = creepage.longitudinal, creepage.lateral, creepage.spin
+    (contact.rail_y, contact.rail_z), (contact.wheel_y, contact.wheel_z) = patch.on_rail, patch.on_wheel
+    contact.used_friction, contact.status, contact.gap_error = s.used_friction, s.status, s.gap_error

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import struct
 from dataclasses import replace
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -23,7 +24,7 @@ from contact.inputs.plausibility import doubt_alike, doubt_gap, doubt_strips
 from contact.instance import workspace
 from contact.instance.case import SURFACE, cases, surface_bytes
 from contact.instance.ownership import one_thread, turn_of, within
-from contact.kernels.arrays import DerivativeArrays, Given, Ledger, PairArrays, Search, SurfaceSearch
+from contact.kernels.arrays import DerivativeArrays, Ledger, PairArrays, Search, SurfaceSearch
 from contact.kernels.enumerations import Height, NoAnswer
 from contact.kernels.flexible import solve_on_profiles, solve_on_surfaces
 from contact.kernels.pair_conditions import derive_on_profiles, derive_on_surfaces
@@ -40,10 +41,11 @@ from contact.solve import solve
 from contact.solver import require_resolution
 from contact.view.notebook import figures
 
-_RIGID, _STRAIGHT = ElasticRail(), WheelOffset()
+#: Records of the arrays that are written where they change, as they are at the beginning.
+_NOTHING: dict[str, Any] = {"rail": ElasticRail(), "offset": WheelOffset()}
 #: Columns of the derivatives, with and without the amount that prescribes the height.
 _ALL = np.arange(len(Moved))
-_PACK_MOTION = struct.Struct(f"{GIVEN.itemsize // 8}d").pack_into
+_PACK_GIVEN = struct.Struct(f"{GIVEN.itemsize // 8}d").pack_into
 _FORWARD, _SPIN = (list(GIVEN.names or ()).index(name) for name in ("vx", "spin"))
 _WITHOUT_AMOUNT = np.delete(_ALL, Moved.AMOUNT)
 
@@ -136,15 +138,13 @@ class WheelRailPair(AnyPair):
             max_iterations=ITERATIONS.require("max_iterations", max_iterations),
         )
         constant = isinstance(pair, Pair)
-        self._solve = solve_on_profiles if constant else solve_on_surfaces
+        self._solve = (solve_on_profiles if constant else solve_on_surfaces).call
         self._packed = pack(PairArrays[Search] if constant else PairArrays[SurfaceSearch], self.arrays)
         self._gap_limit = method.gap_limit
-        self._rail, self._offset = _RIGID, _STRAIGHT
+        self._written = dict(_NOTHING)
         self._found = self.arrays.total.view(np.uint8).data, self.arrays.contacts.view(np.uint8).data
         self._deflection = self.arrays.rail["dy"], self.arrays.rail["dz"]
-        self._motion = np.zeros(1, GIVEN)
-        self._packed_motion = pack(Given, self._motion[0])
-        self._bytes = self._motion.view(np.uint8).data, self.arrays.case.view(np.uint8).data
+        self._bytes = self.arrays.given.view(np.uint8).data, self.arrays.case.view(np.uint8).data
         self._speed, self._distance = self.arrays.case["speed"], self.arrays.ledger.settings["distance"]
         self._surface: tuple[object, bytes] = (None, b"")
         self._static = 0.0
@@ -243,21 +243,19 @@ class WheelRailPair(AnyPair):
                     f"distance = {distance}: solve again with the rotation that was found to book damage"
                 )
 
-            def turning(velocity: Velocity) -> PairSolution:
-                return within(self.solve)(
-                    pose,
-                    velocity,
-                    station=station,
-                    rotation=rotation,
-                    load=load,
-                    penetration=penetration,
-                    vertical=vertical,
-                    irregularity=irregularity,
-                    friction=friction,
-                    rail=rail,
-                    offset=offset,
-                )
-
+            turning = partial(
+                within(self.solve),
+                pose,
+                station=station,
+                rotation=rotation,
+                load=load,
+                penetration=penetration,
+                vertical=vertical,
+                irregularity=irregularity,
+                friction=friction,
+                rail=rail,
+                offset=offset,
+            )
             shear_modulus = float(self.arrays.case[0]["G"])
             velocity = Velocity() if velocity is None else velocity
             require_motion(pose, velocity)
@@ -269,22 +267,21 @@ class WheelRailPair(AnyPair):
         else:
             raise ContactError(f"vertical = {vertical} excludes load = {load} and penetration = {penetration}")
         self._distance[0] = require_number("distance", distance, 0.0)
-        self._set_rail(_RIGID if rail is None else rail)
-        self._set_offset(_STRAIGHT if offset is None else offset)
+        self._write("rail", rail)
+        offset = self._write("offset", offset)
         given = self.pair.motion_of(pose, velocity, irregularity)
-        pitch = self._offset.pitch
-        self.pair.set_way(station, rotation if pitch == 0.0 else require_number("rotation", rotation) + pitch)
+        self.pair.set_way(station, rotation if offset.pitch == 0.0 else require_number("rotation", rotation) + offset.pitch)
         if friction is not self._surface[0]:
             law = as_friction(friction)
             self._surface = law if law is friction or type(friction) is not float else friction, surface_bytes(law)
             self._static = law.static
-        of_motion, of_case = self._bytes
-        _PACK_MOTION(of_motion, 0, *given)
+        of_given, of_case = self._bytes
+        _PACK_GIVEN(of_given, 0, *given)
         of_case[SURFACE], self._speed[0] = self._surface[1], abs(given[_FORWARD])
-        code = self._solve(mode, amount, self._packed_motion, self._packed)
+        code = self._solve(mode, amount, self._packed)
         if code == NoAnswer.TURNED:
             raise ContactError(
-                f"offset.roll = {self._offset.roll:g} and offset.yaw = {self._offset.yaw:g}: with the wheelset's roll and "
+                f"offset.roll = {offset.roll:g} and offset.yaw = {offset.yaw:g}: with the wheelset's roll and "
                 f"yaw the wheel is turned by more than {LARGEST_ANGLE:g} rad"
             )
         if vertical is not None and code == NoAnswer.NOT_SETTLED:
@@ -294,20 +291,17 @@ class WheelRailPair(AnyPair):
         self.pair.require_found(code, pose, load)
         carried, name = (load, "load") if vertical is None else (vertical, "vertical")
         self.pair.doubt(pose, velocity, carried, name, self._static)
-        jacobian = self._derive(mode, self._motion[0], load, penetration, vertical) if derivatives else None
+        jacobian = self._derive(mode) if derivatives else None
         y, z = self._deflection
         found = PairSolution.of_kernel(*self._found, code, (float(y[0]), float(z[0])), given[_SPIN], jacobian)
         doubt_gap(found.gap_error, self._gap_limit, self.pair.told)
         doubt_strips(found.bend, BEND, self._methods["conformal"], self.pair.told)
         return found
 
-    def _derive(
-        self, mode: int, given: np.record, load: float | None, penetration: float | None, vertical: float | None
-    ) -> PairJacobian:
+    def _derive(self, mode: int) -> PairJacobian:
         """Return the derivatives of the last solution, labelled."""
-        derivatives = within(self.derive_given)(mode, given)
-        amounts = {"load": load, "penetration": penetration, "vertical": vertical}
-        name = next((name for name, amount in amounts.items() if amount is not None), None)
+        derivatives = within(self.derive_given)(mode)
+        name = None if mode == Height.GIVEN else Height(mode).name.lower()
         shown = _ALL if name else _WITHOUT_AMOUNT
         values = derivatives.jacobian[: len(PairJacobian.rows), shown]
         values.setflags(write=False)
@@ -354,31 +348,27 @@ class WheelRailPair(AnyPair):
     @one_thread
     def solve_given(self, mode: int, amount: float, given: np.record) -> int:
         """Call the kernel for the record GIVEN of a motion and return its code. The result is in `arrays`."""
-        return int(self._solve(mode, amount, given, self._packed))
+        self.arrays.given[0] = given
+        return int(self._solve(mode, amount, self._packed))
 
     @one_thread
-    def derive_given(self, mode: int, given: np.record) -> DerivativeArrays:
-        """Call the kernel of the derivatives of the last solution, of this motion. They are in what is returned."""
+    def derive_given(self, mode: int) -> DerivativeArrays:
+        """Call the kernel of the derivatives of the last solution, with the `mode` of it. They are in what is returned."""
         constant = isinstance(self.pair, Pair)
         if self._derivatives is None:
             self._derivatives = workspace.derivative_arrays(self._size, self.arrays)
             self._packed_derivatives = pack(
                 DerivativeArrays[Search] if constant else DerivativeArrays[SurfaceSearch], self._derivatives
             )
-        (derive_on_profiles if constant else derive_on_surfaces)(mode, given, self._packed, self._packed_derivatives)
+        (derive_on_profiles if constant else derive_on_surfaces)(mode, self._packed, self._packed_derivatives)
         return self._derivatives
 
-    def _set_rail(self, rail: ElasticRail) -> None:
-        if rail is not self._rail:
-            if not isinstance(rail, ElasticRail):
-                raise ContactError(f"rail = {rail!r} is not a contact.pair.ElasticRail")
-            springs = self.arrays.rail
-            springs["ky"], springs["kz"], springs["preload_y"], springs["preload_z"] = rail.record()
-            self._rail = rail
-
-    def _set_offset(self, offset: WheelOffset) -> None:
-        if offset is not self._offset:
-            if not isinstance(offset, WheelOffset):
-                raise ContactError(f"offset = {offset!r} is not a contact.geometry.flexible.WheelOffset")
-            self.arrays.offset[0] = offset.record()
-            self._offset = offset
+    def _write(self, name: str, given: Any) -> Any:
+        """Write an elastic rail or an offset into its record, unless it stands there. Return it, none for None."""
+        nothing = _NOTHING[name]
+        given = nothing if given is None else given
+        if given is not self._written[name]:
+            require_kind(name, given, type(nothing))
+            getattr(self.arrays, name)[0] = given.record()
+            self._written[name] = given
+        return given

@@ -75,8 +75,8 @@ def lay_pair(work, end, profiles, facing, size, kept, bins, constants):
 @arranging
 def lay_derivatives(work, end, size, arrays):
     """Lay out what the derivatives of `arrays` need. Return it and the new end."""
-    near, end = memory.lay_neighbour(work, end, size, arrays)
-    return memory.lay_derivative_arrays(work, end, size, near)
+    near, end = memory.lay_near_search(work, end, size, arrays.search)
+    return memory.lay_derivatives(work, end, size, near, arrays)
 
 
 @arranging
@@ -154,9 +154,9 @@ def solve_from(a, arrays, piece, cold, mode, amount, distance, motion, case, rai
     springs, _ = block.records(rail, 0, 1, ELASTIC_RAIL)
     offsets, _ = block.records(offset, 0, 1, WHEEL_OFFSET)
     givens, _ = block.records(motion, 0, 1, GIVEN)
-    arrays.case[0], arrays.rail[0], arrays.offset[0] = cases[0], springs[0], offsets[0]
+    arrays.case[0], arrays.rail[0], arrays.offset[0], arrays.given[0] = cases[0], springs[0], offsets[0], givens[0]
     arrays.ledger.settings[0].distance = distance
-    code = solve_flexible(mode, amount, givens[0], arrays)
+    code = solve_flexible(mode, amount, arrays)
     if code < 0:
         return code
     totals, _ = block.records(total, 0, 1, TOTAL)
@@ -191,10 +191,9 @@ def solve_again(a, arrays, piece, k, result):
 
 
 @arranging
-def fill_derivatives(mode, motion, arrays, derivatives, jacobian):
+def fill_derivatives(mode, arrays, derivatives, jacobian):
     """Fill `jacobian`, shape (6, 17), for the last solution of `arrays`. Return the number of patches or `NoAnswer`."""
-    givens, _ = block.records(motion, 0, 1, GIVEN)
-    code = derive_pair(mode, givens[0], arrays, derivatives)
+    code = derive_pair(mode, arrays, derivatives)
     out, _ = block.matrix(jacobian, 0, 6, Moved.FRICTION.value)
     for i in range(6):
         for j in range(out.shape[1]):
@@ -216,10 +215,10 @@ def pair_size(sizes, given):
     return _lay_all(sizes, sizes, given.data)[2]
 
 
-def pair_derivatives(sizes, work, mode, motion, jacobian, given):
+def pair_derivatives(sizes, work, mode, jacobian, given):
     """As `fill_derivatives`, on profiles."""
     arrays, derivatives, _ = _lay_all(sizes, work, given.data)
-    return fill_derivatives(mode, motion, arrays, derivatives, jacobian)
+    return fill_derivatives(mode, arrays, derivatives, jacobian)
 
 
 def pair_strips(sizes, given):
@@ -300,7 +299,7 @@ ENTRIES: dict[str, tuple[Any, str, tuple[str, ...]]] = {
     "pair_facing": (pair_facing, "i64", ("ptr",) * 4),
     "pair_init": (pair_init, "i64", (*("ptr",) * 7, *("f64",) * 4)),
     "pair_solve": (pair_solve, "i64", ("ptr", "ptr", "i64", "i64", "f64", "f64", *("ptr",) * 7)),
-    "pair_derivatives": (pair_derivatives, "i64", ("ptr", "ptr", "i64", "ptr", "ptr")),
+    "pair_derivatives": (pair_derivatives, "i64", ("ptr", "ptr", "i64", "ptr")),
     "pair_accept": (pair_accept, "i64", ("ptr", "ptr")),
     "pair_forget": (pair_forget, "i64", ("ptr", "ptr")),
     "pair_patch": (pair_patch, "i64", ("ptr", "ptr", "i64", "ptr")),

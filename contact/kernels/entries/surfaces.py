@@ -112,8 +112,7 @@ def lay_pair(work, end, wheel, n_wheel, rail, n_rail, size, kept, constants):
 def lay_derivatives(work, end, size, arrays):
     """Lay out what the derivatives of `arrays` need. Return it and the new end."""
     search, end = memory.lay_surface_search(work, end, arrays.search.wheel, arrays.search.rail, size.n_samples)
-    near, end = memory.lay_beside(work, end, search, arrays)
-    return memory.lay_derivative_arrays(work, end, size, near)
+    return memory.lay_derivatives(work, end, size, search, arrays)
 
 
 @arranging
@@ -175,11 +174,11 @@ def surfaces_size(sizes, wheel, rail, given):
     return _lay_all(sizes, wheel, rail, sizes, given.data)[2]
 
 
-def surfaces_derivatives(sizes, work, mode, motion, jacobian, given):
+def surfaces_derivatives(sizes, work, mode, jacobian, given):
     """As `pair.fill_derivatives`."""
     n_wheel = int(carray(sizes, (9,))[4])
     arrays, derivatives, _ = _lay_all(sizes, work, ahead(work, n_wheel), work, given.data)
-    return fill_derivatives(mode, motion, arrays, derivatives, jacobian)
+    return fill_derivatives(mode, arrays, derivatives, jacobian)
 
 
 def surfaces_init(sizes, work, wheel, rail, motion, case, parameters, given):
@@ -233,7 +232,7 @@ ENTRIES: dict[str, tuple[Any, str, tuple[str, ...]]] = {
     "surfaces_size": (surfaces_size, "i64", ("ptr",) * 3),
     "surfaces_init": (surfaces_init, "i64", ("ptr",) * 7),
     "surfaces_solve": (surfaces_solve, "i64", ("ptr", "ptr", "i64", "i64", *("f64",) * 3, *("ptr",) * 7)),
-    "surfaces_derivatives": (surfaces_derivatives, "i64", ("ptr", "ptr", "i64", "ptr", "ptr")),
+    "surfaces_derivatives": (surfaces_derivatives, "i64", ("ptr", "ptr", "i64", "ptr")),
     "surfaces_accept": (surfaces_accept, "i64", ("ptr", "ptr")),
     "surfaces_forget": (surfaces_forget, "i64", ("ptr", "ptr")),
     "surfaces_patch": (surfaces_patch, "i64", ("ptr", "ptr", "i64", "ptr")),

@@ -91,11 +91,11 @@ def step_solver(table: Table) -> Callable[..., Any]:
         arrays.case[0].speed = abs(v[at.velocity_x])
         given, _ = block.records(values, at.pose_y, 1, GIVEN)
         offset, _ = block.records(values, at.offset_x, 1, WHEEL_OFFSET)
-        arrays.offset[0] = offset[0]
+        arrays.given[0], arrays.offset[0] = given[0], offset[0]
         for k in range(MAX_PATCHES):
             forget_forged(arrays.memory[1 + k * piece : 1 + (k + 1) * piece])
         mode = _HEIGHT[int(v[at.load_kind]) - 1]
-        return _failure(solve_flexible(mode, max(v[at.load_normal_force], 0.0), given[0], arrays))
+        return _failure(solve_flexible(mode, max(v[at.load_normal_force], 0.0), arrays))
 
     return solve
 
@@ -138,9 +138,8 @@ def deriver(table: Table) -> Callable[..., Any]:
     at = references(table)
 
     @arranging
-    def derive(values, v, arrays, derivatives, derived):
-        given, _ = block.records(values, at.pose_y, 1, GIVEN)
-        n = derive_pair(_HEIGHT[int(v[at.load_kind]) - 1], given[0], arrays, derivatives)
+    def derive(v, arrays, derivatives, derived):
+        n = derive_pair(_HEIGHT[int(v[at.load_kind]) - 1], arrays, derivatives)
         for j in range(derived.shape[1]):
             known = n > 0 and derivatives.sides[j] != NO_SIDE
             if j == Moved.AMOUNT:

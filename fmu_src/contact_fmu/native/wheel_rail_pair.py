@@ -172,7 +172,7 @@ def entries() -> dict[str, Callable[..., Any]]:
     def model_jacobian(values, work, given):
         v = carray(values, (n_values,))
         arrays, derivatives, (derived, begin_derived) = arrange(v, work, given)
-        derive(values, v, arrays, derivatives, derived)
+        derive(v, arrays, derivatives, derived)
         return begin_derived
 
     def model_difference(values, reference, given):

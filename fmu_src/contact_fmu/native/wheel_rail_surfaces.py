@@ -103,7 +103,7 @@ def entries() -> dict[str, Callable[..., Any]]:
     def model_jacobian(values, work, given):
         v = carray(values, (n_values,))
         arrays, derivatives, (derived, begin), _ = _lay(work, given, size(v))
-        derive(values, v, arrays, derivatives, derived)
+        derive(v, arrays, derivatives, derived)
         return begin
 
     def model_difference(values, reference, given):

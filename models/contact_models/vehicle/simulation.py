@@ -349,7 +349,7 @@ class Simulation(OwnsArrays):
             case[0] = self.wheel_arrays.cases[w]
             case["mu"], case["kinetic"], case["speed"] = here["friction"], here["kinetic"], given["vx"]
             self._require_on_rail(-1 - w if pair.solve_given(Height.GIVEN, 0.0, given) < 0 else 0)
-            jacobians[w] = pair.derive_given(Height.GIVEN, given).jacobian[:6, :n_given]
+            jacobians[w] = pair.derive_given(Height.GIVEN).jacobian[:6, :n_given]
             forces[w] = [pair.arrays.total[0][name] for name in ("Fx", "Fy", "Fz", "Mx", "My", "Mz")]
         return forces, jacobians
 

@@ -111,7 +111,7 @@ class UnevenWheels(OwnsArrays):
         """Return what solves the contact of wheel `w` on a stretch, or on profiles."""
         _, _, wheel_arrays, scratch = self._arrays
         if here is not None:
-            arrays = pack(PairArrays[SurfaceSearch], here.pair.arrays)
-            return lambda: int(wheels.solve_contact(arrays, scratch.given[w], scratch.seats[w], scratch.wheels[w]))
+            arrays = pack(PairArrays[SurfaceSearch], here.pair.arrays._replace(given=scratch.given[w : w + 1]))
+            return lambda: int(wheels.solve_contact(arrays, scratch.seats[w], scratch.wheels[w]))
         every, rows = pack(WheelArrays[Search], wheel_arrays), pack(Scratch, scratch)
         return lambda: int(wheels.follow_wheel(every, rows, w))

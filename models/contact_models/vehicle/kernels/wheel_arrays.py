@@ -127,8 +127,8 @@ def _bins(wheel_arrays, w):
 
 
 @kernel
-def arrays_of(wheel_arrays, w):
-    """Return the arrays of wheel `w`."""
+def arrays_of(wheel_arrays, given, w):
+    """Return the arrays of wheel `w`, of which there are `given` motions."""
     t, s, size, pool = wheel_arrays.shared, wheel_arrays.shared.search, wheel_arrays.sizes[w], wheel_arrays.pool
     n_wheel, n_rail = size[Size.WHEEL], size[Size.RAIL]
     placed_at = N_LINE_ROWS * n_wheel
@@ -179,6 +179,7 @@ def arrays_of(wheel_arrays, w):
         rail=t.rail,
         roots=t.roots,
         moved=t.moved,
+        given=given[w : w + 1],
         offset=t.offset,
         displaced=t.displaced,
     )

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 
 from contact.core import entry, kernel
-from contact.kernels.arrays import Given, PairArrays, Search, SurfaceSearch
+from contact.kernels.arrays import PairArrays, Search, SurfaceSearch
 from contact.kernels.enumerations import Status
 from contact.kernels.flexible import solve_rigid
 from contact.kernels.geometry.search import axle
@@ -66,11 +66,11 @@ def fill_inputs(model, state, s, motions, scratch):
 
 
 @entry
-def solve_contact(arrays: PairArrays[SurfaceSearch], given: Given, here: Seat, wheel: Wheel) -> int:
+def solve_contact(arrays: PairArrays[SurfaceSearch], here: Seat, wheel: Wheel) -> int:
     """Solve the contact of one wheel for the inputs of `fill_inputs`. Fill `wheel`; return as `solve_pair`."""
     case = arrays.case[0]
-    case.mu, case.kinetic, case.speed = here.friction, here.kinetic, abs(given.vx)
-    n = solve_rigid(given, arrays)
+    case.mu, case.kinetic, case.speed = here.friction, here.kinetic, abs(arrays.given[0].vx)
+    n = solve_rigid(arrays)
     if n >= 0:
         report_wheel(arrays, n, wheel)
     return n
@@ -79,7 +79,7 @@ def solve_contact(arrays: PairArrays[SurfaceSearch], given: Given, here: Seat, w
 @kernel
 def solve_wheel(wheel_arrays, scratch, w):
     """Solve the contact of wheel `w`; see `solve_contact`."""
-    return solve_contact(arrays_of(wheel_arrays, w), scratch.given[w], scratch.seats[w], scratch.wheels[w])
+    return solve_contact(arrays_of(wheel_arrays, scratch.given, w), scratch.seats[w], scratch.wheels[w])
 
 
 @entry
@@ -93,7 +93,7 @@ def follow_wheel(wheel_arrays: WheelArrays[Search], scratch: Scratch, w: int) ->
     if last.limits[0] <= 1.0:
         return solve_wheel(wheel_arrays, scratch, w)
     total, n_before, rolled = wheel_arrays.totals[w], int(wheel.patches), setting.distance
-    arrays = arrays_of(wheel_arrays, w)
+    arrays = arrays_of(wheel_arrays, scratch.given, w)
     near = expect(last, w, given, scratch.seats[w].friction, arrays, arrays.contacts, share_of_stick(total), n_before)
     if near and take_expected(last, w, rolled, wheel):
         return n_before
@@ -156,10 +156,9 @@ def report_wheel(arrays, n, wheel):
     wheel.moment_x, wheel.moment_y, wheel.moment_z = total.Mx, total.My, total.Mz
     wheel.T_gamma, wheel.pmax = total.T_gamma, total.pmax
     wheel.patches, wheel.status = float(n), float(total.status)
-    wheel.normal, wheel.dissipation, wheel.elastic = 0.0, 0.0, 0.0
+    wheel.normal, wheel.dissipation, wheel.elastic = total.N, 0.0, 0.0
     for c in range(n):
         contact = arrays.contacts[c]
-        wheel.normal += contact.N
         wheel.elastic += ELASTIC * contact.N * contact.approach
         wheel.dissipation -= (
             contact.Fx * contact.longitudinal + contact.Fy * contact.lateral + contact.Mz * contact.spin
