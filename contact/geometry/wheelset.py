@@ -25,7 +25,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from contact.arrays import Array, as_array
-from contact.errors import ContactError, require_kind, require_number
+from contact.errors import ContactError, require_kind
 from contact.geometry.posed import Posed, Side
 from contact.geometry.records import Irregularity, Patch, Pose, Velocity
 from contact.geometry.shape import Profile
@@ -40,6 +40,7 @@ from contact.inputs.options import (
     MOST_PATCHES,
     RADIUS,
     REFERENCE_SPEED,
+    SAMPLES,
 )
 from contact.inputs.separation import Separation
 from contact.instance import workspace
@@ -51,9 +52,6 @@ from contact.kernels.records import TAPE_FROM_FLANGE_BACK
 from contact.kernels.rows import Curve
 
 __all__ = ["Irregularity", "Pair", "Patch", "Pose", "Velocity", "contacts"]
-
-
-SAMPLES = 81
 
 
 class Pair(Posed):
@@ -122,7 +120,7 @@ class Pair(Posed):
         combine_distance: float = COMBINE_DISTANCE.usual,
         combine_angle: float = COMBINE_ANGLE.usual,
         most_patches: int = MOST_PATCHES.usual,
-        samples: int | ArrayLike = SAMPLES,
+        samples: int | ArrayLike = SAMPLES.usual,
         material: Material = STEEL,
         reference_speed: float = REFERENCE_SPEED.usual,
     ) -> None:
@@ -314,8 +312,7 @@ def place_of_rail(rail: Profile, gauge: float, gauge_point: float) -> tuple[floa
 def _grid(samples: int | ArrayLike) -> tuple[Array, int]:
     """Return the prescribed sample positions [m], empty if there are none, and the number of samples."""
     if isinstance(samples, int | np.integer):
-        require_number("samples", samples, 5, 2001)
-        return np.empty(0), int(samples)
+        return np.empty(0), SAMPLES.require("samples", samples)
     grid = as_array("samples", samples)
     if grid.ndim != 1 or grid.size < 5 or not np.isfinite(grid).all() or not (np.diff(grid) > 0.0).all():
         raise ContactError(f"samples of shape {grid.shape}: at least 5 finite, increasing positions [m] are needed")

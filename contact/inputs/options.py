@@ -67,6 +67,8 @@ COMBINE_DISTANCE, COMBINE_ANGLE = Real(8e-3, 0.0), Real(math.radians(10.0), 0.0)
 MOST_PATCHES = Whole(MAX_PATCHES, 1, MAX_PATCHES)
 #: Speed below which the creepages of a pair refer to it [m/s].
 REFERENCE_SPEED = Real(SLOWEST, 1e-6, 10.0)
+#: Samples of each separation of a pair; 41 miss the peaks of crossing noses.
+SAMPLES = Whole(81, 5, 2001)
 #: Distance before and behind the axle in which surfaces are searched [m].
 REACH = Real(0.06, 0.01, 0.3)
 #: Coefficient of friction: above the largest, squares could overflow. Temperatures [K], the last one above all melting points.
@@ -83,6 +85,13 @@ CREEPAGE = Real(0.0, -LARGEST_CREEPAGE, LARGEST_CREEPAGE)
 ROLLING = Real(0.0, -1e3, 1e3)
 _POSITIVE, _SHARE = Real(1.0, 0.0, above=True), Real(1.0, 0.0, 1.0)
 _PART, _SWITCH, _ANGLE = Real(1.0, 0.0, 1.0, above=True), Whole(0, 0, 1), Real(0.0, -LARGEST_ANGLE, LARGEST_ANGLE)
+#: Names of the members of the record GIVEN, in their order: of motions, and as inputs of FMUs have them.
+MOTION = (
+    *(f"pose.{name}" for name in ("y", "z", "roll", "yaw")),
+    *(f"velocity.{name}" for name in ("forward", "y", "z", "roll", "yaw", "spin")),
+    *(f"irregularity.{name}" for name in ("y", "z", "roll", "y_rate", "z_rate", "roll_rate")),
+)
+MOTION_INPUTS = tuple(name.replace("forward", "x") for name in MOTION)
 _ANGLES = {
     "roll": _ANGLE,
     "pitch": _ANGLE,

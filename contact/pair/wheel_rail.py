@@ -270,7 +270,9 @@ class WheelRailPair(AnyPair):
         self._write("rail", rail)
         offset = self._write("offset", offset)
         given = self.pair.motion_of(pose, velocity, irregularity)
-        self.pair.set_way(station, rotation if offset.pitch == 0.0 else require_number("rotation", rotation) + offset.pitch)
+        self.pair.set_way(
+            station, rotation if offset.pitch == 0.0 else require_number("rotation", rotation) + offset.pitch
+        )
         if friction is not self._surface[0]:
             law = as_friction(friction)
             self._surface = law if law is friction or type(friction) is not float else friction, surface_bytes(law)

@@ -9,43 +9,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from contact.errors import ContactError
+from contact.inputs.options import MOTION
+from contact.kernels.records import GIVEN
 from contact.view.notebook import table
+from contact.view.units import UNITS, stated
 
-_UNITS = {
-    "Fx": "N",
-    "Fy": "N",
-    "Mz": "N m",
-    "N": "N",
-    "approach": "m",
-    "power_per_metre": "N",
-    "longitudinal": "1",
-    "lateral": "1",
-    "spin": "1/m",
-    "load": "N",
-    "friction": "1",
-    "Fz": "N",
-    "Mx": "N m",
-    "My": "N m",
-    "z": "m",
-    "penetration": "m",
-    "vertical": "N",
-    "pose.y": "m",
-    "pose.z": "m",
-    "pose.roll": "rad",
-    "pose.yaw": "rad",
-    "velocity.forward": "m/s",
-    "velocity.y": "m/s",
-    "velocity.z": "m/s",
-    "velocity.roll": "rad/s",
-    "velocity.yaw": "rad/s",
-    "velocity.spin": "rad/s",
-    "irregularity.y": "m",
-    "irregularity.z": "m",
-    "irregularity.roll": "rad",
-    "irregularity.y_rate": "m/s",
-    "irregularity.z_rate": "m/s",
-    "irregularity.roll_rate": "rad/s",
-}
+_UNITS = {**UNITS, **{n: stated(f"given.{member}") for n, member in zip(MOTION, GIVEN.names or (), strict=True)}}
 
 
 @dataclass(frozen=True, eq=False)
@@ -91,7 +60,7 @@ class _Labelled:
     def _repr_html_(self) -> str:
         if self.values.ndim > 2:
             return repr(self)
-        headings = ("d of / by", *(f"{name} [{_UNITS.get(name, 'm')}]" for name in self.columns))
+        headings = ("d of / by", *(f"{name} [{_UNITS[name]}]" for name in self.columns))
         rows = (
             (f"{row} [{_UNITS[row]}]", *(f"{value:.6g}" for value in values))
             for row, values in zip(self.rows, self.values, strict=True)
@@ -160,10 +129,4 @@ class PairJacobian(_Labelled):
 
 def columns_of_pair(given: str | None) -> tuple[str, ...]:
     """Return the names of the columns of a pair's jacobian."""
-    return (
-        *(f"pose.{name}" for name in ("y", "z", "roll", "yaw")),
-        *(f"velocity.{name}" for name in ("forward", "y", "z", "roll", "yaw", "spin")),
-        *(f"irregularity.{name}" for name in ("y", "z", "roll", "y_rate", "z_rate", "roll_rate")),
-        *((given,) if given else ()),
-        "friction",
-    )
+    return (*MOTION, *((given,) if given else ()), "friction")

@@ -2,6 +2,10 @@
 
 from __future__ import annotations
 
+import re
+
+from contact.kernels.records import MEANING
+
 #: Unit → names of inputs and results that have it. "1" is a pure number.
 _NAMES = {
     "m": "cant lead height "
@@ -44,3 +48,10 @@ _NAMES = {
 }
 #: A name with a point is that of a member: it goes before the name of the member alone.
 UNITS = {name: unit for unit, names in _NAMES.items() for name in names.split()}
+
+
+def stated(member: str) -> str:
+    """Return the unit that the kernels state for a number "record.member", "1" for none."""
+    record, name = member.split(".")
+    found = re.search(r"\[(.+?)\]", MEANING[record][name])
+    return found[1].replace("-", "1") if found else "1"

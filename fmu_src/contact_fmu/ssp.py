@@ -21,6 +21,7 @@ from pathlib import Path
 from xml.etree.ElementTree import Element, SubElement, indent, tostring
 
 from contact_models.runs.scenario import Scenario
+from contact_models.vehicle.coupling import QUESTION
 from contact_models.vehicle.declared import SIDES
 from contact_models.wheelset import system as wheelset
 from . import archive, starts
@@ -110,7 +111,7 @@ def _on_rails(given: Scenario, whole: Table, its: vehicle.Starts) -> System:
     for k, name in enumerate(names):
         side = SIDE.number(SIDES[k % 2].title())
         components.append(SspComponent(name, pair, {"side_integer": side, **of_wheel}))
-        connections += [("vehicle", f"wheel[{k + 1}].{ask}", name, ask) for ask in open_vehicle.QUESTION]
+        connections += [("vehicle", f"wheel[{k + 1}].{ask}", name, ask) for ask in QUESTION]
         connections += [(name, answer, "vehicle", f"wheel[{k + 1}].{answer}") for answer in open_vehicle.ANSWER]
     outputs = ("wheel.Q", "wheel.Y", "wheel.Y_over_Q", "damage.T_gamma", "pressure.max", "power.friction")
     return System(VEHICLE, components, connections, frozenset(("distance", *_MOTION, *outputs)), STEP)

@@ -18,6 +18,7 @@ from itertools import product
 from contact.arrays import Array
 from contact.errors import require_number
 from contact.kernels.records import MEANING
+from contact.view.units import stated
 
 
 class Causality(StrEnum):
@@ -335,9 +336,7 @@ def _unit_of(member: str) -> str:
     """Return the unit that the kernels state for a member of a record, as FMI writes it; "1" for none."""
     if not member or member in _TURNING:
         return "rad/m" if member else "1"
-    record, name = member.split(".")
-    found = re.search(r"\[(.+?)\]", MEANING[record][name])
-    return found[1].replace(" ", ".").replace("-", "1") if found else "1"
+    return stated(member).replace(" ", ".")
 
 
 def _meaning_of(member: str) -> str:

@@ -12,9 +12,9 @@ from contact import stress
 from contact.compile.c_header import PATH, header
 from contact.geometry import profile
 from contact.geometry.surfaces import Flat, RailSurface, SurfacePair, WheelSurface, compiled
-from contact.geometry.surfaces.pair import SAMPLES
 from contact.geometry.wheelset import Pair as Profiles
 from contact.geometry.wheelset import Pose, Velocity
+from contact.inputs.options import SAMPLES
 from contact.kernels.enumerations import Height, Status
 from contact.kernels.records import DAMAGE, RESULT
 from contact.pair import WheelRailPair
@@ -240,7 +240,7 @@ def test_a_pair_on_surfaces_has_the_bits_of_python(library, side, tilted):
     body = "right" if side == 1 else "left"
     surfaces = SurfacePair(wheel, rail, side=body, tilted=bool(tilted), rail_origin=origin)
     numbers = compiled.numbers(surfaces.wheel), compiled.numbers(surfaces.rail, surfaces.rail_origin)
-    pair = Pair(library, *numbers, side=side, tilted=tilted, patch=_patch_options(library, n_samples=SAMPLES))
+    pair = Pair(library, *numbers, side=side, tilted=tilted, patch=_patch_options(library, n_samples=SAMPLES.usual))
     reference = WheelRailPair(surfaces)
     for step, station in enumerate((-0.2, 0.1, 0.3)):
         pose, rotation = Pose(1e-3 * step, 0.0, 0.0, 2e-3), -0.03 * step

@@ -17,7 +17,7 @@ from contact.geometry.shape import Profile
 from contact.geometry.surfaces import compiled
 from contact.geometry.surfaces.frame import Frame
 from contact.geometry.surfaces.surface import RailSurface, WheelSurface
-from contact.geometry.wheelset import TAPE_FROM_FLANGE_BACK, place_of_rail
+from contact.geometry.wheelset import SAMPLES, TAPE_FROM_FLANGE_BACK, place_of_rail
 from contact.given_force import rising_root
 from contact.halfspace.gap import Division, Gap
 from contact.halfspace.lattice import Lattice
@@ -36,7 +36,6 @@ from contact.kernels.records import MAX_PATCHES
 
 Range = tuple[float, float, float, float]
 ROWS = COLUMNS = 60
-SAMPLES = 81  # of a separation; 41 miss the peaks of crossing noses
 #: Search under a load: most forces, their tolerance over the load, and [m] of the height below which the force jumps.
 _MOST, _LOAD_TOLERANCE, _SHORTEST = 40, 1e-5, 1e-12
 #: The overlap of a patch is measured on this many points along each side, at least twice, at most so many times. Where it
@@ -180,7 +179,7 @@ class SurfacePair(Posed):
         self.division: Division | Lattice = Division(n_rows, n_columns, both)
         self.material = material
         self._made = compiled.sheet(self.wheel), compiled.sheet(self.rail)
-        self.space = workspace.surface_search(*self._made, SAMPLES)
+        self.space = workspace.surface_search(*self._made, SAMPLES.usual)
         motion = self.space.motion[0]
         motion.radius, motion.tape, motion.mirror = self.nominal_radius, self.tape, self._mirror
         motion.combine_distance, motion.most_patches = self.combine_distance, MAX_PATCHES

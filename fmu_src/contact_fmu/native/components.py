@@ -7,6 +7,7 @@ from enum import IntEnum, auto
 import numpy as np
 
 from contact import Status
+from contact.inputs.options import MOTION_INPUTS
 from contact.kernels.geometry.settle import DEEPEST
 from contact.kernels.records import LARGEST_ANGLE
 from contact_models.vehicle.assembly import assemble
@@ -30,7 +31,7 @@ CONTACT_DERIVED = (
 )
 PAIR_DERIVED = (
     (*(f"{kind}.{axis}" for kind in ("force", "moment") for axis in "xyz"), "wheelset.z"),
-    (*wheel_rail_pair.MOTION, "load.normal_force", "friction.coefficient"),
+    (*MOTION_INPUTS, "load.normal_force", "friction.coefficient"),
 )
 
 

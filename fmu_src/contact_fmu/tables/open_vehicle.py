@@ -9,20 +9,20 @@ from collections.abc import Iterable
 from dataclasses import replace
 from functools import cache
 
+from contact.inputs.options import RADIUS
+from contact_models.vehicle.coupling import QUESTION
 from contact_models.vehicle.declared import VehicleDeclaration, read
 from contact_models.vehicle.kernels.layout import FARTHEST
-from ..rows import output, parameter, signal
+from ..rows import output, parameter, signal, taken
 from ..variables import Table, Variable
 from . import vehicle
 from .vehicle import Starts, started
-from .wheel_rail_pair import MOTION, inputs, parameters
+from .wheel_rail_pair import inputs, parameters
 
 #: What a pair answers.
 ANSWER = tuple(f"{kind}.{axis}" for kind in ("force", "moment") for axis in "xyz")
 #: Unit of an output → usual size.
 _NOMINAL = {"m": 1e-3, "rad": 1e-3, "m/s": 1.0, "rad/s": 1.0, "1": 0.1}
-#: What it is asked: its inputs in the order of the record GIVEN, then the friction.
-QUESTION = (*MOTION, "friction.coefficient")
 #: Why a step is discarded.
 ENDED = "the vehicle is not on the track: it ends here (contact_fmu.track), or initial.distance is not on it"
 ASTRAY = f"a body is more than {FARTHEST:g} m or rad from its place, or has no finite motion"
@@ -65,9 +65,7 @@ def _parameters(declared: VehicleDeclaration) -> Iterable[Variable]:
         f"Rolling radius {of}: velocity.spin is the speed over it",
         unit="m",
         shape=(n,),
-        start=declared.radius,
-        minimum=0.05,
-        maximum=2.0,
+        **taken(RADIUS._replace(usual=declared.radius)),
     )
     yield parameter(
         "rail.origin_y", "Distance of the origin of the rail's profile from the centre line", unit="m",

@@ -10,9 +10,10 @@ from collections.abc import Iterable
 from dataclasses import replace
 from functools import cache
 
+from contact.inputs.options import FRICTION
 from contact_models.vehicle.declared import VehicleDeclaration, read
 from contact_models.vehicle.kernels.between import LONGEST_PACE, PACE
-from ..rows import Attributes, output, parameter, signal
+from ..rows import Attributes, output, parameter, signal, taken
 from ..variables import Table, Variable
 from . import solver, wheel_rail_pair
 
@@ -160,9 +161,7 @@ def inputs() -> Iterable[Variable]:
     yield signal(
         "friction.coefficient",
         "Coefficient of friction, which the track's factors multiply",
-        start=0.3,
-        minimum=0.0,
-        maximum=next(row.maximum for row in wheel_rail_pair.table().rows if row.name == "friction.coefficient"),
+        **taken(FRICTION),
     )
 
 

@@ -6,15 +6,16 @@ from collections.abc import Iterable
 from functools import cache
 
 from contact.accumulation import MAXIMA, SUMS
-from contact.geometry.wheelset import SAMPLES
 from contact.inputs.options import (
     COMBINE_ANGLE,
     COMBINE_DISTANCE,
     FLANGE_BACK,
     GAUGE,
     GAUGE_POINT,
+    MOTION_INPUTS,
     RADIUS,
     REFERENCE_SPEED,
+    SAMPLES,
 )
 from contact.kernels.records import GIVEN, WHEEL_OFFSET
 from ..rows import of, output, parameter, signal, taken
@@ -55,12 +56,7 @@ ACCUMULATED = tuple(f"accumulated.{body}.{name}" for body in BODIES for name in 
 WHEEL, RAIL = "wheel.profile", "rail.profile"
 RESOURCES = (WHEEL, RAIL)
 
-#: Inputs in the order of the records GIVEN and WHEEL_OFFSET.
-MOTION = (
-    *(f"pose.{name}" for name in ("y", "z", "roll", "yaw")),
-    *(f"velocity.{name}" for name in ("x", "y", "z", "roll", "yaw", "spin")),
-    *(f"irregularity.{name}" for name in ("y", "z", "roll", "y_rate", "z_rate", "roll_rate")),
-)
+#: Inputs in the order of the record WHEEL_OFFSET.
 OFFSET = tuple(f"offset.{name}" for name in WHEEL_OFFSET.names or ())
 _SPEED = 20.0
 _STARTS = {"velocity.x": _SPEED, "velocity.spin": -_SPEED / RADIUS.usual}
@@ -154,9 +150,7 @@ def parameters(inclination: float) -> Iterable[Variable]:
         member="motion.combine_angle",
     )
     yield from solver.parameters()
-    yield parameter(
-        "resolution.n_samples", "Samples of each separation", integer=True, start=SAMPLES, minimum=5, maximum=2001
-    )
+    yield parameter("resolution.n_samples", "Samples of each separation", **taken(SAMPLES))
     yield parameter(
         "accumulation.wear_law",
         "Wear law of the damage that accumulates on both profiles at each doStep; nothing accumulates in model exchange",
@@ -204,7 +198,7 @@ def parameters(inclination: float) -> Iterable[Variable]:
 
 def inputs() -> Iterable[Variable]:
     """Yield the inputs, which the FMU `WheelRailSurfaces` has too, as the outputs."""
-    for name, member in zip(MOTION, GIVEN.names or (), strict=True):
+    for name, member in zip(MOTION_INPUTS, GIVEN.names or (), strict=True):
         used = {"load.kind": ("Position",)} if name == "pose.z" else {}
         given = of("given", member)
         given["start"] = _STARTS.get(name, given["start"])

@@ -6,7 +6,6 @@ from collections.abc import Iterable
 from dataclasses import replace
 from functools import cache
 
-from contact.geometry.surfaces.pair import SAMPLES
 from contact.inputs.options import MEMBERS, REACH
 from ..rows import parameter, signal, taken
 from ..variables import Enumeration, Table, Variable
@@ -47,9 +46,7 @@ def table() -> Table:
 
 
 def _parameters() -> Iterable[Variable]:
-    for row in pair.parameters(0.0):
-        if row.name not in ABSENT:
-            yield replace(row, start=SAMPLES) if row.name == "resolution.n_samples" else row
+    yield from (row for row in pair.parameters(0.0) if row.name not in ABSENT)
     yield parameter(
         "surfaces.reach",
         "Distance before and behind the axle that is searched, doubled as long as the bodies come closer at its ends",

@@ -11,6 +11,7 @@ import numpy as np
 from contact.arrays import Array
 from contact.core import pack
 from contact.errors import ContactError
+from contact.inputs.options import MOTION_INPUTS
 from contact.instance.ownership import OwnsArrays, one_thread
 from contact.kernels.arrays import Motions
 from .declared import SIDES
@@ -20,13 +21,7 @@ from .kernels.layout import Book, Model, Scratch, State
 from .simulation import Simulation
 
 #: What a contact is asked, by the names of the inputs of the FMU `WheelRailPair`.
-QUESTION = (
-    *("pose.y", "pose.z", "pose.roll", "pose.yaw"),
-    *("velocity.x", "velocity.y", "velocity.z", "velocity.roll", "velocity.yaw", "velocity.spin"),
-    *("irregularity.y", "irregularity.z", "irregularity.roll"),
-    *("irregularity.y_rate", "irregularity.z_rate", "irregularity.roll_rate"),
-    "friction.coefficient",
-)
+QUESTION = (*MOTION_INPUTS, "friction.coefficient")
 #: What it answers → member of the record WHEEL. The first six have the names of the FMU's outputs and act on the wheel in track
 #: coordinates, moments about the wheelset's centre. The normal force [N] tells impacts and lifted wheels. Dissipation [N] and
 #: elastic energy [J] are for the balance of energy alone.
