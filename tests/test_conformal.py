@@ -1,19 +1,17 @@
 """Contact angle varying over the patch (theory.md 8.6)."""
 
 import math
-from dataclasses import replace
 
 import numpy as np
 import pytest
 
 import contact
 from contact.geometry import profile, wheelset
-from contact.geometry.wheelset import Pair, Pose
+from contact.geometry.wheelset import Pose
 from contact.halfspace.gap import Gap
 from contact.kernels.conformal import bend, surface_at
 from contact.kernels.records import CASE
 from contact.kernels.rows import Strip
-from contact.pair import WheelRailPair
 
 Y = np.linspace(-15e-3, 15e-3, 121)
 TANGENTIAL = [name for name, method in contact.methods().batched.tangential.items() if method.fields]
@@ -104,25 +102,6 @@ def test_the_mirror_image_has_the_mirrored_forces(tangential):
     assert (other.Fx, other.Fy) == pytest.approx((one.Fx, -one.Fy), abs=1e-6 * 8e4)
     assert other.Mz == pytest.approx(-one.Mz, abs=1e-8 * 8e4)
     assert other.power_per_metre == pytest.approx(one.power_per_metre, rel=1e-6)
-
-
-@pytest.mark.parametrize("y", [0.0, 5.5e-3])
-def test_a_pair_gives_the_forces_of_its_patches_on_either_side(y):
-    wheel, rail = profile.s1002(), profile.rail_60e1(inclination=1 / 40)
-    forces = []
-    for side, mirror in (("right", 1.0), ("left", -1.0)):
-        pose = Pose(y=mirror * y, yaw=mirror * 3e-3)
-        found = WheelRailPair(Pair(wheel, rail, side=side), conformal=True).solve(pose, load=8e4)
-        forces.append((found.force[0], mirror * found.force[1], found.force[2]))
-        patches = wheelset.contacts(wheel, rail, replace(pose, z=found.z), side=side)
-        for contact_, patch in zip(found.contacts, patches, strict=True):
-            alone = contact.solve(patch.separation, patch.creepage, approach=patch.approach, conformal=True)
-            # within the tolerance of the strips, and of the height at which they carry the load
-            assert (alone.Fx, alone.Fy) == pytest.approx((contact_.Fx, contact_.Fy), rel=1e-3)
-            assert alone.Mz == pytest.approx(contact_.Mz, rel=1e-3)
-            plane = contact.solve(patch.separation, patch.creepage, approach=patch.approach)
-            assert abs(alone.Fy - plane.Fy) > 1.0
-    assert forces[0] == forces[1]
 
 
 def test_a_batch_equals_separate_solutions():

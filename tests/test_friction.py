@@ -2,16 +2,12 @@
 
 import dataclasses
 import math
-from dataclasses import replace
 
 import numpy as np
 import pytest
 
 import contact
 from contact.friction import LAWS, Friction
-from contact.geometry import profile, wheelset
-from contact.geometry.wheelset import Pair, Pose
-from contact.pair import WheelRailPair
 
 FALLING = [law for law in LAWS if law != "coulomb"]
 SEPARATION = contact.Separation.hertzian(1.0, 2.0)
@@ -274,23 +270,3 @@ def test_batches_and_local_laws_apply_the_gauge_factor():
     many = contact.forces(SEPARATION, (1e-3, 5e-4, 0.3), load=8e4, friction=friction)
     assert float(many.Fx) == one.Fx
     assert abs(one.Fx) < abs(solve((1e-3, 5e-4, 0.3), friction=dataclasses.replace(friction, gauge_factor=1.0)).Fx)
-
-
-@pytest.mark.parametrize("y", [0.0, 5.5e-3])
-def test_the_border_of_a_pair_lies_in_the_rails_profile_on_either_side(y):
-    """Left and right are mirror images, and each patch has the forces of `contact.solve` with its local friction."""
-    wheel, rail = profile.s1002(), profile.rail_60e1(inclination=1 / 40)
-    friction = Friction(0.4, gauge_factor=0.25, border=-8e-3, border_width=2e-2)
-    forces = []
-    for side, mirror in (("right", 1.0), ("left", -1.0)):
-        pair = WheelRailPair(Pair(wheel, rail, side=side))
-        pose = Pose(y=mirror * y, yaw=mirror * 3e-3)
-        found = pair.solve(pose, load=8e4, friction=friction)
-        forces.append((found.force[0], mirror * found.force[1], found.force[2]))
-        patches = wheelset.contacts(wheel, rail, replace(pose, z=found.z), side=side)
-        for contact_, patch in zip(found.contacts, patches, strict=True):
-            placed = friction.placed(patch.on_rail[0], patch.angle, mirror)
-            alone = contact.solve(patch.separation, patch.creepage, approach=patch.approach, friction=placed)
-            assert alone.Fy == pytest.approx(contact_.Fy, rel=1e-3)  # the tolerance of strips and height
-            assert (placed.factor(alone.strips.y) < 1.0).any()
-    assert forces[0] == forces[1]

@@ -9,10 +9,11 @@ import pytest
 import contact
 from contact import Status
 from contact.damage import evaluate
+from contact.friction import Friction
 from contact.geometry.flexible import WheelOffset
 from contact.geometry.wheelset import Irregularity, Pair, Pose, Velocity
 from contact.pair import ElasticRail, WheelRailPair
-from tests.pair.made import R0, WHEEL, WORN, make, random_motion
+from tests.pair.made import R0, RAIL, WHEEL, WORN, make, random_motion
 
 METHODS = contact.methods().batched
 
@@ -28,16 +29,21 @@ def turned(angle: float) -> np.ndarray:
     return np.array([[1.0, 0.0, 0.0], [0.0, c, -s], [0.0, s, c]])
 
 
+#: On the gauge face of the rail friction is a quarter of that on its head.
+FACE = Friction(0.4, gauge_factor=0.25, border=-8e-3, border_width=2e-2)
+
+
 @pytest.mark.parametrize("seed", range(8))
 @pytest.mark.parametrize("load", [None, 80e3])
-def test_equals_search_and_separate_solution_of_every_patch(right, worn, seed, load):
-    pair = worn if seed % 2 else right
+@pytest.mark.parametrize("conformal", [False, True])
+def test_equals_search_and_separate_solution_of_every_patch(seed, load, conformal):
+    pair, friction = make(rail=WORN if seed % 2 else RAIL, conformal=conformal), FACE if seed % 3 else 0.4
     pose, velocity, rail = random_motion(seed)
     if seed == 1:
         pose, rail = Pose(y=6.37e-3), Irregularity()
     pose = Pose(pose.y, pair.pair.touch(pose, rail) + 8e-5, pose.roll, pose.yaw)
     pair.forget()
-    actual = pair.solve(pose, velocity, load=load, irregularity=rail, friction=0.4)
+    actual = pair.solve(pose, velocity, load=load, irregularity=rail, friction=friction)
     exact = 1e-12
     if load:
         pose = replace(pose, z=actual.z)
@@ -46,8 +52,9 @@ def test_equals_search_and_separate_solution_of_every_patch(right, worn, seed, l
     force, damage = np.zeros(3), []
     for mine, patch in zip(actual.contacts, patches, strict=True):
         s = contact.solve(
-            patch.separation, patch.creepage, approach=patch.approach, friction=0.4, speed=velocity.forward, throw=False
-        )
+            patch.separation, patch.creepage, approach=patch.approach, speed=velocity.forward, throw=False, conformal=conformal,
+            friction=friction.placed(patch.on_rail[0], patch.angle, 1.0) if friction is FACE else friction,
+        )  # fmt: skip
         own = patch.share * np.array([s.N, s.Fx, s.Fy, s.Mz])
         np.testing.assert_allclose((mine.N, mine.Fx, mine.Fy, mine.Mz), own, rtol=exact, atol=1e-9)
         assert (mine.angle, mine.creepage, mine.status) == (patch.angle, patch.creepage, s.status)
@@ -155,19 +162,21 @@ def test_the_power_lost_by_the_motion_is_the_frictional_dissipation(y, methods, 
 
 
 @pytest.mark.parametrize("seed", range(6))
-def test_left_is_the_mirror_image_of_right_to_the_last_bit(right, left, seed):
+def test_left_is_the_mirror_image_of_right_to_the_last_bit(seed):
     pose, v, r = random_motion(seed)
-    right.forget()
-    left.forget()
+    right, left = (make(side, conformal=seed > 2) for side in ("right", "left"))
     offset, rail = WheelOffset(1e-4, 1e-3, 2e-4, 1e-3, 0.0, 2e-3), ElasticRail(8e6, 50e6, 1e3, 0.0)
     across = WheelOffset(1e-4, -1e-3, 2e-4, -1e-3, 0.0, -2e-3), ElasticRail(8e6, 50e6, -1e3, 0.0)
     soft = seed % 2 == 1
-    a = right.solve(pose, v, load=80e3, irregularity=r, **({"offset": offset, "rail": rail} if soft else {}))
+    a = right.solve(
+        pose, v, load=80e3, irregularity=r, friction=FACE, **({"offset": offset, "rail": rail} if soft else {})
+    )
     b = left.solve(
         Pose(-pose.y, pose.z, -pose.roll, -pose.yaw),
         Velocity(v.forward, -v.y, v.z, -v.roll, -v.yaw, v.spin),
         load=80e3,
         irregularity=Irregularity(-r.y, r.z, -r.roll, -r.y_rate, r.z_rate, -r.roll_rate),
+        friction=FACE,
         **(dict(zip(("offset", "rail"), across, strict=True)) if soft else {}),
     )
     assert b.deflection == (-a.deflection[0], a.deflection[1])
