@@ -176,12 +176,13 @@ class PairSolution(MadeLater):
     ) -> PairSolution:
         """Return the solution with `n` patches from the bytes of the records that the kernel has filled.
 
-        Arrays, patches and damage are made from copies when one of them is first read.
+        Patches and damage are made from copies when one of them is first read.
         """
         record = _TOTAL.unpack_from(total)
         numbers = dict(zip(_PLAIN, _PICK(record), strict=True))
         numbers["status"], numbers["deflection"] = STATES[record[_STATUS]], deflection
         numbers["spin"], numbers["jacobian"] = spin, jacobian
+        numbers["force"], numbers["moment"] = np.array(record[:3]), np.array(record[3:6])
         return cls.later(numbers, _made, record, bytes(contacts[: n * CONTACT.itemsize]))
 
     def _table(self) -> Table:
@@ -241,10 +242,8 @@ _DAMAGE = itemgetter(*(_NAMES.index(name) for name in PairDamage._fields))
 
 
 def _made(total: tuple[Any, ...], contacts: bytes) -> dict[str, Any]:
-    """Return force, moment, patches and damage."""
+    """Return patches and damage."""
     return {
-        "force": np.array(total[:3]),
-        "moment": np.array(total[3:6]),
         "contacts": tuple(
             _read(dict(zip(CONTACT.names or (), row, strict=True))) for row in _CONTACT.iter_unpack(contacts)
         ),
