@@ -17,7 +17,14 @@ from contact.friction import Friction
 from contact.inputs.creepage import Creepage
 from contact.inputs.material import STEEL, Material
 from contact.inputs.options import CREEPAGE, FRICTION, N_ELEMENTS, N_STRIPS
-from contact.inputs.plausibility import doubt_alike, doubt_gap, doubt_strips, doubt_values
+from contact.inputs.plausibility import (
+    doubt_alike,
+    doubt_beyond,
+    doubt_gap,
+    doubt_rows,
+    doubt_strips,
+    doubt_values,
+)
 from contact.inputs.separation import Separation
 from contact.instance import workspace
 from contact.instance.case import cases as prepared_cases
@@ -28,8 +35,8 @@ from contact.kernels.jacobian import COLUMNS, ROWS
 from contact.kernels.pipeline import solve_cases
 from contact.kernels.records import RESULT
 from contact.kernels.solver import derive_contact
-from contact.registry import DEFAULT_NORMAL, DEFAULT_TANGENTIAL, lookup
-from contact.results import BEND, Forces, Jacobian
+from contact.registry import DEFAULT_NORMAL, DEFAULT_TANGENTIAL, GAP_LIMIT_INTERACTING, lookup
+from contact.results import BEND, BEYOND, Forces, Jacobian
 from contact.solver import require_conformal, require_resolution
 
 _CHUNK = 256
@@ -189,6 +196,10 @@ def forces(
         )
         worst = int(results["bend"].argmax())
         doubt_strips(float(results["bend"][worst]), BEND, conformal, separations[which[worst]].told)
+        worst = int(results["beyond"].argmax())
+        doubt_beyond(float(results["beyond"][worst]), BEYOND, separations[which[worst]].told)
+        least_true = max(separations, key=lambda one: one.fit_error)
+        doubt_rows(least_true.fit_error, GAP_LIMIT_INTERACTING, least_true.told)
     area = column("area")
     slip_ratio = np.divide(column("slip_area"), area, out=np.zeros(shape), where=area > 0.0)
     return Forces(

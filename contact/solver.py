@@ -17,7 +17,14 @@ from contact.given_force import as_numbers, wanted_force
 from contact.inputs.creepage import Creepage, as_creepage
 from contact.inputs.material import STEEL, Material
 from contact.inputs.options import ITERATIONS, N_ELEMENTS, N_STRIPS
-from contact.inputs.plausibility import doubt_alike, doubt_case, doubt_gap, doubt_strips
+from contact.inputs.plausibility import (
+    doubt_alike,
+    doubt_beyond,
+    doubt_case,
+    doubt_gap,
+    doubt_rows,
+    doubt_strips,
+)
 from contact.inputs.separation import Separation
 from contact.instance import workspace
 from contact.instance.case import cases, set_surface
@@ -26,10 +33,10 @@ from contact.kernels.arrays import SolverArrays
 from contact.kernels.enumerations import LoadKind
 from contact.kernels.normal.start import MEM_IMAGE
 from contact.kernels.solver import derive_contact, solve_contact, solve_contact_under_force
-from contact.registry import DEFAULT_NORMAL, DEFAULT_TANGENTIAL, Method, lookup
-from contact.results import BEND, CaseForces, Jacobian, Prepared, Solution, Status
+from contact.registry import DEFAULT_NORMAL, DEFAULT_TANGENTIAL, GAP_LIMIT_INTERACTING, Method, lookup
+from contact.results import BEND, BEYOND, CaseForces, Jacobian, Prepared, Solution, Status
 from contact.results.later import STATES
-from contact.results.solution import BEND_AT, GAP_ERROR, READ_RESULT, STATUS
+from contact.results.solution import BEND_AT, BEYOND_AT, GAP_ERROR, READ_RESULT, STATUS
 from contact.view import trace
 
 #: The methods of the thesis and a resolution for them, as arguments of `solve`, `forces`, `Solver` and `WheelRailPair`.
@@ -255,6 +262,8 @@ class Solver(OwnsArrays):
             require_trustworthy(STATES[found[STATUS]], separation.y, load, approach)
         doubt_strips(found[BEND_AT], BEND, self.conformal, self.told)
         doubt_gap(found[GAP_ERROR], self.normal.gap_limit, self.told)
+        doubt_beyond(found[BEYOND_AT], BEYOND, self.told)
+        doubt_rows(separation.fit_error, GAP_LIMIT_INTERACTING, self.told)
         prepared = Prepared(self.normal.name, self.tangential.name, self.material, self._speed)
         jacobian = self._jacobian(load) if derivatives else None
         return Solution.of_kernel(found, n, self.arrays, creepage, prepared, jacobian)

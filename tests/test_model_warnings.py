@@ -1,5 +1,6 @@
 """What a method leaves out is said where it matters (`contact.errors.ModelWarning`)."""
 
+import copy
 import math
 import warnings
 
@@ -12,6 +13,7 @@ from contact.errors import ModelWarning
 from contact.geometry import profile
 from contact.geometry.wheelset import Pair, Pose
 from contact.pair import WheelRailPair
+from contact.study.ellipse import ellipse
 
 HERTZ, ROLLING = Separation.hertzian(1.1, 0.8), Creepage(1e-3)
 UNLIKE = contact.Material.from_pair(60e9, 0.31, 210e9, 0.28)
@@ -157,3 +159,43 @@ def test_a_pressure_that_leaves_gaps_is_told():
     with warnings.catch_warnings():
         warnings.simplefilter("error", ModelWarning)
         WheelRailPair(pair).solve(Pose(y=4e-3, yaw=10e-3), load=8e4)
+
+
+@pytest.mark.parametrize(("a_over_b", "told"), [(0.05, 1), (0.2, 0), (25.0, 0), (45.0, 1)])
+def test_patches_beyond_the_table_of_creep_forces_are_told(a_over_b, told):
+    """It reaches from .1 to 31.6; a third of the patches on flanges have 18 to 32."""
+    separation = ellipse(a_over_b, 6e-3, 8e4)
+    for given in ({}, {"tangential": "table"}, {"normal": "analyn"}):
+        texts = model_warnings(lambda given=given: contact.Solver(**given).solve(separation, ROLLING, load=8e4))
+        assert [text.partition(" = ")[0] for text in texts] == ["beyond"] * told
+        assert contact.Solver(**given).solve(separation, ROLLING, load=8e4).beyond == pytest.approx(told, abs=1e-3)
+    assert model_warnings(lambda: contact.Solver(tangential="fastrip").solve(separation, ROLLING, load=8e4)) == []
+    assert len(model_warnings(lambda: contact.forces([separation], ROLLING, load=8e4))) == told
+
+
+def test_a_pair_tells_of_a_patch_beyond_the_table_of_creep_forces():
+    """A cylinder on a rail with a radius of 60 m."""
+    y = np.linspace(-0.037, 0.037, 297)
+    edges = 250.0 * np.maximum(np.abs(y) - 0.028, 0.0) ** 2
+    rails = [profile.Profile("rail", y, y**2 / (2.0 * radius) + edges) for radius in (60.0, 0.3)]
+    for rail, told in zip(rails, (["beyond"], []), strict=True):
+        pair = WheelRailPair(Pair(profile.cone(0.0), rail))
+        texts = model_warnings(lambda pair=pair: pair.solve(Pose(), load=2e3))
+        assert [text.partition(" = ")[0] for text in texts] == told
+        assert pair.solve(Pose(), load=2e3).beyond == len(told)
+
+
+def test_rows_of_a_yawed_flange_that_are_no_parabolas_are_told():
+    """Elements on the same parabolas are .068 of mu N off those on the distance of both surfaces, and gap_error was .019."""
+    profiles, pose = Pair(profile.s1002(), profile.rail_60e1(inclination=1 / 40)), Pose(y=7.7e-3, yaw=23.9e-3)
+    with pytest.warns(ModelWarning, match="gap_error = "):
+        found = WheelRailPair(profiles).solve(pose, load=9e4)
+    assert max(c.gap_error for c in found.contacts) > 0.03
+    patch = max(profiles.contacts(pose, load=9e4), key=lambda one: one.load)
+    for options in ({}, {"normal": "halfspace", "tangential": "halfspace"}):
+        with pytest.warns(ModelWarning, match="rows along x are no parabolas"):
+            contact.solve(copy.copy(patch.separation), patch.creepage, load=patch.load, **options)
+    with warnings.catch_warnings():
+        warnings.simplefilter("error", ModelWarning)
+        for quiet in (Pose(y=7.7e-3), Pose(y=3e-3, yaw=20e-3), Pose(y=-2e-3, yaw=-20e-3)):
+            WheelRailPair(profiles).solve(quiet, load=9e4)

@@ -200,7 +200,7 @@ class Pair(Posed):
         rolling = math.cos(float(p.angle)) / float(p.radius)
         edges = (float(p.low), float(p.high))
         separation = Separation(m * y, g, A, x_c, m * tilt, rolling)
-        separation.told = self.told
+        separation.told, separation.fit_error = self.told, float(p.fit_error)
         return Patch(
             separation=separation,
             creepage=Creepage(float(p.vx), m * float(p.vy), m * float(p.phi)),

@@ -156,6 +156,7 @@ def assemble(
         tangential=tangential,
         pressure_y=float(sideways.sum()) * force,
         bend=float(np.ptp(np.arctan(row_geometry.tilt[rows]))) if rows.size else 0.0,
+        beyond=0.0,
         gap_error=0.0,  # the gap closes at every element, to the tolerance of the iteration
         patch_edges=edges.reshape(-1, 2),
         memory=np.zeros(0),

@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from contact.errors import ModelWarning, doubt, warn
+from contact.kernels.tangential.table import LOG_ASPECT_MAX, LOG_ASPECT_MIN
 
 
 class Usual(NamedTuple):
@@ -117,9 +118,24 @@ def about_bend(largest: float) -> str:
 def about_gap(limit: float) -> str:
     """Return what a `gap_error` above `limit` means."""
     return (
-        f"the pressure leaves gaps or overlaps inside the patch; above {limit:g} the largest pressure may be more than "
-        "5 % wrong (limits.md)"
+        f"the pressure leaves gaps or overlaps inside the patch, or surfaces are no parabolas along x; above {limit:g} the "
+        "largest pressure may be more than 5 % wrong (limits.md)"
     )
+
+
+def about_beyond(largest: float) -> str:
+    """Return what is wrong where more than a share `largest` of the load is on shapes beyond the table of creep forces."""
+    return (
+        f"more than {largest:.0%} of the load is on shapes with a/b beyond {math.exp(LOG_ASPECT_MIN):.3g} to "
+        f"{math.exp(LOG_ASPECT_MAX):.3g}, the ends of the half space's table of creep forces, which count for them: "
+        "forces may be more than 0.01 of friction times load off, above 50 more than 0.1 (limits.md)"
+    )
+
+
+def doubt_beyond(beyond: float, largest: float, told: set[str]) -> None:
+    """Warn of a share `beyond` of the load, above `largest`, on shapes beyond the table of creep forces."""
+    if beyond > largest:
+        _once(told, "beyond", f"beyond = {beyond:.2g}: {about_beyond(largest)}")
 
 
 def doubt_strips(bend: float, largest: float, conformal: bool, told: set[str]) -> None:
@@ -148,9 +164,21 @@ def doubt_gap(gap_error: float, limit: float, told: set[str], reason: str = "gap
         _once(
             told,
             reason,
-            f"gap_error = {gap_error:.2g}: the pressure leaves gaps or overlaps inside the patch. Above {limit:g} the largest "
-            "pressure may be more than 5 % wrong (limits.md); normal = tangential = "
-            "'halfspace' solves the patch",
+            f"gap_error = {gap_error:.2g}: the pressure leaves gaps or overlaps inside the patch, or surfaces are no parabolas "
+            f"along x. Above {limit:g} the largest pressure may be more than 5 % wrong (limits.md); normal = tangential = "
+            "'halfspace' solves the patch, HalfspacePair the surfaces",
+        )
+
+
+def doubt_rows(fit_error: float, limit: float, told: set[str]) -> None:
+    """Warn of a separation whose parabolas along x are by more than the limit of `gap_error` off what a search found."""
+    if fit_error > limit:
+        _once(
+            told,
+            "rows",
+            f"the wheel's rows along x are no parabolas, as the separation takes them: their slope is {fit_error:.2g} off. "
+            f"Above {limit:g} the largest pressure may be more than 5 % wrong, and creep forces by 0.02 of friction times load "
+            "(limits.md); HalfspacePair of a SurfacePair takes the surfaces as they are",
         )
 
 

@@ -64,7 +64,7 @@ class Separation:
     893
     """
 
-    __slots__ = ("A", "g", "packed", "rolling", "samples", "tilt", "told", "x_c", "y")
+    __slots__ = ("A", "fit_error", "g", "packed", "rolling", "samples", "tilt", "told", "x_c", "y")
 
     y: NDArray[np.float64]
     g: NDArray[np.float64]
@@ -75,6 +75,7 @@ class Separation:
     samples: Samples  # the arrays as kernels use them
     packed: Packed  # the same as the library takes them
     told: set[str]  # for what there was a ModelWarning; those of a pair share it
+    fit_error: float  # of the parabolas along x, which a search knows (`contact.kernels.records`: `fit_error`)
 
     def __init__(
         self,
@@ -130,19 +131,20 @@ class Separation:
         return other
 
     def _lay_out(self) -> None:
-        """Make the arrays read-only and set `samples`, `packed` and `told`."""
-        self.told = set()
+        """Make the arrays read-only and set `samples`, `packed`, `told` and `fit_error`."""
+        self.told, self.fit_error = set(), 0.0
         self.samples = Samples(self.y, self.g, self.A, self.x_c, self.tilt)
         for array in self.samples:
             array.setflags(write=False)
         self.packed = Packed(Samples, self.samples)
 
     def __getstate__(self) -> tuple[Any, ...]:
-        return self.y, self.g, self.A, self.x_c, self.tilt, self.rolling
+        return self.y, self.g, self.A, self.x_c, self.tilt, self.rolling, self.fit_error
 
     def __setstate__(self, state: tuple[Any, ...]) -> None:
-        self.y, self.g, self.A, self.x_c, self.tilt, self.rolling = state
+        self.y, self.g, self.A, self.x_c, self.tilt, self.rolling, *more = state
         self._lay_out()
+        self.fit_error = more[0] if more else 0.0  # pickles of version 0.8 have none
 
     def _repr_html_(self) -> str:
         """Return HTML with a sketch of the gap near its minimum, for a notebook."""

@@ -179,7 +179,7 @@ def _solve(n, pressed, brief, enters, arrays):
         patch, contact = arrays.search.patches[k], arrays.contacts[k]
         n_strips = pressed if pressed >= 0 else _press_patch(k, arrays)
         _roll_patch(k, n_strips, brief, arrays)
-        total.bend = max(total.bend, result.bend)
+        total.bend, total.beyond = max(total.bend, result.bend), max(total.beyond, result.beyond)
         pressure = pressure_wrench(workspace.strips, n_strips)
         report(patch, case, result, pressure, contact)
         if n_strips > 0:

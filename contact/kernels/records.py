@@ -113,6 +113,7 @@ RESULT = record(
     touch           approach at first touch [m]
     gap_error       largest remaining gap or overlap in the patch over the approach [-]
     bend            change of the contact angle over all patches of the separation [rad]
+    beyond          share of the load on shapes whose a/b is beyond the table of creep forces [-]
     edges:{2 * MAX_PATCHES}         lateral edges of the patches, two each [m]
     """,
 )
@@ -208,7 +209,7 @@ PATCH = record(
     point_z         [m]
     share           weight of the patch, normally 1; below 1 in the transition to separate planes
     pitch           inclination of the frame's normal along the track, forward positive [rad]
-    fit_error       of the parabolas along x of a surface: root mean square over the approach, or in the slope of a row [-]
+    fit_error       of the parabolas along x: root mean square over the approach, or in the slope of a row [-]
     back            range of the plane that contains the interpenetration, along x [m]; only for surfaces, as the following
     front           [m]
     left            and along y [m]
@@ -288,6 +289,7 @@ TOTAL = record(
     Y_over_Q        [-]; 0 without vertical force
     used_friction   sum of the creep forces over that of the normal forces [-]
     bend            largest change of the contact angle over the patches in one plane [rad]
+    beyond          largest share of a patch's load on shapes whose a/b is beyond the table of creep forces [-]
     """
     + _DAMAGE,
 )

@@ -143,7 +143,8 @@ def clear_total(total):
     total.Fx, total.Fy, total.Fz, total.Mx, total.My, total.Mz, total.z = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
     total.n_patches, total.status = 0, Status.NO_CONTACT
     total.pmax, total.area, total.slip_area, total.power, total.gap_error = 0.0, 0.0, 0.0, 0.0, 0.0
-    total.N, total.Q, total.Y, total.Y_over_Q, total.used_friction, total.bend = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
+    total.N, total.Q, total.Y, total.Y_over_Q, total.used_friction = 0.0, 0.0, 0.0, 0.0, 0.0
+    total.bend, total.beyond = 0.0, 0.0
     clear_damage(total)
 
 

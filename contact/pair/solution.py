@@ -139,6 +139,7 @@ class PairSolution(MadeLater):
     gap_error : the greatest of the patches [-]
     bend : largest change of the contact angle over the patches of one plane [rad]; `contact.Solution.bend` says what it means.
         It is 0 where no strips are solved
+    beyond : the greatest `contact.Solution.beyond` of the patches [-]
     deflection : lateral and vertical deflection of an elastic rail [m], added to its irregularity; 0 for a rigid rail
     spin : rotation about the axle [rad/s], as given or as found for a force or a torque; negative when rolling forward
     jacobian : derivatives of force, moment and z; None unless they were asked for
@@ -162,6 +163,7 @@ class PairSolution(MadeLater):
     deflection: tuple[float, float] = (0.0, 0.0)
     spin: float = 0.0
     bend: float = 0.0
+    beyond: float = 0.0
     jacobian: PairJacobian | None = field(default=None, repr=False)
 
     @classmethod

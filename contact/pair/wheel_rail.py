@@ -20,7 +20,7 @@ from contact.geometry.surfaces import SurfacePair
 from contact.geometry.wheelset import Pair
 from contact.inputs.material import STEEL, Material
 from contact.inputs.options import ITERATIONS, N_ELEMENTS, N_STRIPS
-from contact.inputs.plausibility import doubt_alike, doubt_gap, doubt_strips
+from contact.inputs.plausibility import doubt_alike, doubt_beyond, doubt_gap, doubt_strips
 from contact.instance import workspace
 from contact.instance.case import SURFACE, cases, surface_bytes
 from contact.instance.ownership import one_thread, turn_of, within
@@ -35,7 +35,7 @@ from contact.pair.elastic_rail import ElasticRail
 from contact.pair.motion import AnyPair
 from contact.pair.solution import PairSolution
 from contact.registry import DEFAULT_NORMAL, DEFAULT_TANGENTIAL, lookup
-from contact.results import BEND, PairJacobian
+from contact.results import BEND, BEYOND, PairJacobian
 from contact.results.jacobian import columns_of_pair
 from contact.solve import solve
 from contact.solver import require_resolution
@@ -298,6 +298,7 @@ class WheelRailPair(AnyPair):
         found = PairSolution.of_kernel(*self._found, code, (float(y[0]), float(z[0])), given[_SPIN], jacobian)
         doubt_gap(found.gap_error, self._gap_limit, self.pair.told)
         doubt_strips(found.bend, BEND, self._methods["conformal"], self.pair.told)
+        doubt_beyond(found.beyond, BEYOND, self.pair.told)
         return found
 
     def _derive(self, mode: int) -> PairJacobian:

@@ -2,11 +2,12 @@
 
 from contact.results.jacobian import Jacobian, PairJacobian
 from contact.results.resultants import CaseForces, Forces
-from contact.results.solution import ANSWERS, BEND, Prepared, Solution, Status, Strips
+from contact.results.solution import ANSWERS, BEND, BEYOND, Prepared, Solution, Status, Strips
 
 __all__ = [
     "ANSWERS",
     "BEND",
+    "BEYOND",
     "CaseForces",
     "Forces",
     "Jacobian",

@@ -18,7 +18,7 @@ from contact.damage import Damage, evaluate
 from contact.errors import only_with_fields
 from contact.inputs.creepage import Creepage
 from contact.inputs.material import Material
-from contact.inputs.plausibility import Usual, about_bend, about_gap
+from contact.inputs.plausibility import Usual, about_bend, about_beyond, about_gap
 from contact.kernels.arrays import SolverArrays
 from contact.kernels.enumerations import Status
 from contact.kernels.friction import of_case
@@ -35,9 +35,12 @@ Records = NDArray[np.void]
 
 #: Change of the contact angle over a patch above which a plane contact may be wrong [rad] (docs/check/limits.md).
 BEND = 0.4
+#: Share of the load on shapes beyond the table of creep forces above which forces are doubtful [-].
+BEYOND = 0.01
 #: What is doubted of an answer of strips: its largest usual value, and what is wrong above it.
 ANSWERS = {
     "bend": Usual(BEND, about_bend(BEND)),
+    "beyond": Usual(BEYOND, about_beyond(BEYOND)),
     "gap_error": Usual(GAP_LIMIT, about_gap(GAP_LIMIT)),
     "gap_error interacting": Usual(GAP_LIMIT_INTERACTING, about_gap(GAP_LIMIT_INTERACTING)),
 }
@@ -51,7 +54,9 @@ _NAMES = [RENAMED.get(name, name) for name in _MEMBERS if name not in _UNTOLD]
 _PICK = itemgetter(*(k for k, name in enumerate(_MEMBERS) if name not in _UNTOLD))
 #: Reads the record as numbers. Where some of them are; the edges are the last ones.
 READ_RESULT = reader(RESULT).unpack_from
-STATUS, BEND_AT, GAP_ERROR, _EDGES = (_MEMBERS.index(name) for name in ("status", "bend", "gap_error", "edges"))
+STATUS, BEND_AT, BEYOND_AT, GAP_ERROR, _EDGES = (
+    _MEMBERS.index(name) for name in ("status", "bend", "beyond", "gap_error", "edges")
+)
 #: Attribute of a solution → its row in the kernel's fields.
 _FIELDS = {"x": Field.X, "p": Field.P, "qx": Field.QX, "qy": Field.QY, "sx": Field.SX, "sy": Field.SY}
 
@@ -133,6 +138,9 @@ class Solution(MadeLater):
     bend : change of the contact angle over the patches, which lie in one plane [rad]. The contact is taken as plane unless
         `conformal`; above `BEND` its lateral force is up to a tenth of the load off. The half space in the plane does not
         tell it: 0
+    beyond : share of the load on shapes that are more slender or shorter (a/b) than the ellipses of the table of creep forces,
+        which then answers with its outermost ones [-]; above `BEYOND` forces are doubtful. Only `fastrip_mapped` and `table`
+        read it
     length, width : extent of the patch along x and y [m]
     n_patches, iterations : int
     status : Status
@@ -161,6 +169,7 @@ class Solution(MadeLater):
     normal_stiffness: float
     gap_error: float
     bend: float
+    beyond: float
     length: float
     width: float
     n_patches: int

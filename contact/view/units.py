@@ -31,7 +31,7 @@ _NAMES = {
     "m³/m": "archard_volume",
     "s": "seconds every duration time damping",
     "1": "friction profile_scale inclination slip_ratio used_friction utilisation sx sy "
-    "longitudinal lateral conicity slope share gap_error fatigue_index "
+    "longitudinal lateral conicity slope share gap_error beyond fatigue_index "
     "burstow index Y_over_Q poisson_ratio coupling errors.force errors.moment errors.N errors.approach "
     "errors.max_pressure errors.area errors.pressure",
     "1, 1, 1/m": "creepage",

@@ -47,15 +47,16 @@ class Rule(NamedTuple):
 
 
 def rules(table: Table) -> Iterator[Rule]:
-    """Yield the rules for the rows that a host gives, and that of the answer."""
+    """Yield the rules for the rows that a host gives, and those of the answer."""
     pair = "velocity.spin" in table.row
     for row, name in {**_ROWS, **(_PAIR if pair else _CONTACT)}.items():
         if row in table.row and table.row[row].is_given:
             yield Rule((row,), USUAL[name])
     if pair and table.row[_SLIP[0]].is_given:
         yield Rule(_SLIP, USUAL["slip"])
-    if "bend" in table.row:
-        yield Rule(("bend",), ANSWERS["bend"])
+    for answer in ("bend", "beyond"):
+        if answer in table.row:
+            yield Rule((answer,), ANSWERS[answer])
 
 
 def text(rule: Rule) -> str:

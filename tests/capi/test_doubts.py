@@ -12,8 +12,10 @@ from contact.geometry import profile
 from contact.geometry.wheelset import Pair as Profiles
 from contact.geometry.wheelset import Pose, Velocity
 from contact.inputs.plausibility import USUAL, doubt_case, doubt_value
+from contact.kernels.records import RESULT
 from contact.pair import WheelRailPair
 from contact.results import ANSWERS, BEND
+from contact.study.ellipse import ellipse
 from tests.capi.library import Pair, Patch
 
 SIZES = 10.0 ** np.arange(-4.0, 5.0)  # factors on usual values
@@ -134,3 +136,13 @@ def test_an_answer_is_doubted_as_in_python(library, normal):
         assert bent == (found.bend > BEND)
     assert fired["bend"] > 0
     assert fired["gap_error"] > 0 or normal == "strip_halfspace"
+
+
+@pytest.mark.parametrize(("a_over_b", "told"), [(0.05, 1.0), (25.0, 0.0), (45.0, 1.0)])
+def test_a_patch_beyond_the_table_of_creep_forces_is_doubted(library, a_over_b, told):
+    patch, result, held = Patch(library), np.zeros(1, RESULT), ellipse(a_over_b, 6e-3, 80e3)
+    patch.case["load_kind"], patch.case["amount"], patch.case["vx"] = 0, 80e3, 1e-3
+    library.need("wr_contact_solve", patch.memory, patch.separation(held), patch.case, result)
+    doubts = texts(library, library.call("wr_contact_answer_doubts", patch.options, result))
+    assert result["beyond"][0] == pytest.approx(told, abs=1e-3)
+    assert [text.split(":")[0] for text in doubts] == ["beyond"] * int(told)

@@ -93,7 +93,12 @@ def expected(s: PairSolution, speed: float) -> dict[str, float]:
         **dict(zip(("force.x", "force.y", "force.z"), s.force.tolist(), strict=True)),
         **dict(zip(("moment.x", "moment.y", "moment.z"), s.moment.tolist(), strict=True)),
         **{"wheelset.z": s.z, "pressure.max": s.max_pressure, "slip.ratio": s.slip_ratio, "gap_error": s.gap_error},
-        **{"power.friction": abs(speed) * s.power_per_metre, "used_friction": s.used_friction, "bend": s.bend},
+        **{
+            "power.friction": abs(speed) * s.power_per_metre,
+            "used_friction": s.used_friction,
+            "bend": s.bend,
+            "beyond": s.beyond,
+        },
         **named("patches", count=len(s.contacts), area=s.area),
         **named("damage", T_gamma=d.T_gamma, wear_rate_pearce_sherratt=d.pearce_sherratt, index_burstow=d.burstow),
         **named("damage", wear_rate_usfd=d.usfd, archard_depth_max=d.archard_depth, archard_volume=d.archard_volume),

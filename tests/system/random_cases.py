@@ -21,7 +21,7 @@ OUTPUTS = (
     *("patch.width", "slip.ratio", "power.friction", "damage.T_gamma", "damage.wear_rate_pearce_sherratt"),
     *("damage.index_burstow", "damage.wear_rate_usfd", "damage.archard_depth_max", "damage.archard_volume"),
     *("damage.fatigue_index_surface", "damage.stress_index_max", "damage.energy_index_max", "stiffness.normal"),
-    *("total.energy", "total.worn_volume", "gap_error", "bend", "patch.count", "status"),
+    *("total.energy", "total.worn_volume", "gap_error", "bend", "beyond", "patch.count", "status"),
 )
 #: Parameters of temperature-dependent friction.
 HEAT = (
@@ -56,7 +56,7 @@ class Case:
                 *(s.Fx, s.Fy, s.N, s.Mz, s.approach, s.max_pressure, s.area, s.length, s.width, s.slip_ratio, power),
                 *(d.T_gamma, d.pearce_sherratt, d.burstow, d.usfd, depth, volume),
                 *(d.fatigue_index, stress, energy, s.normal_stiffness),
-                *(STEP * power, STEP * s.speed * volume, s.gap_error, bend, s.n_patches, s.status),
+                *(STEP * power, STEP * s.speed * volume, s.gap_error, bend, s.beyond, s.n_patches, s.status),
             ]
         )
 
@@ -79,7 +79,7 @@ class Case:
         lateral = np.hypot(limit, s.N) if abs(s.Fy) > limit else limit
         scale |= {"force.x": limit, "force.y": lateral, "moment.z": 0.02 * lateral, "slip.ratio": 1.0}
         scale |= {"damage.stress_index_max": s.material.shear_yield, "damage.fatigue_index_surface": 1.0}
-        scale |= {"gap_error": 1.0, "bend": 1.0}
+        scale |= {"gap_error": 1.0, "bend": 1.0, "beyond": 1.0}
         scale["stiffness.normal"] *= 1e3
         digits = 10.0 if s.normal == "strip_halfspace" and s.material.pressure_limit < math.inf else 1.0
         return np.abs(actual - wanted) / (digits * np.array(list(scale.values())) + 1e-300)

@@ -4,8 +4,8 @@ import pytest
 from fmu_instance import WARNING, Instance
 from fmu_instance_fmi3 import Instance3
 
-from contact.inputs.plausibility import about_bend
-from contact.results import BEND
+from contact.inputs.plausibility import about_bend, about_beyond
+from contact.results import BEND, BEYOND
 
 #: Inputs of a pair, and what is said of them.
 PAIR = [
@@ -80,3 +80,15 @@ def test_fmi_3_says_the_same(native_fmi3_folder):
     instance.step()
     assert any("friction.coefficient = 35: " in str(said) for said in instance.log)
     instance.free()
+
+
+def test_a_patch_beyond_the_table_of_creep_forces_is_told_once(opened):
+    fmu = opened("EllipticContact")
+    fmu.update({"geometry.A0": 1.1, "geometry.B0": 0.28, "load.normal_force": 8e4})
+    fmu.initialize().step()
+    assert fmu["beyond"] == 0.0
+    fmu.update({"geometry.A0": 6.9, "geometry.B0": 0.0588})  # a/b = .05
+    for _ in range(3):
+        fmu.step()
+    assert fmu["beyond"] == pytest.approx(1.0, abs=1e-3)
+    assert warned(fmu) == [f"beyond = {fmu['beyond']:g}: {about_beyond(BEYOND)}"]

@@ -33,7 +33,8 @@ def node(i, j, k, l):
 
 
 @pytest.mark.parametrize(
-    ("i", "j", "k", "l"), [(2, 1, 8, 3), (4, 2, 3, 5), (5, 4, 2, 4), (7, 0, 9, 6), (9, 2, 5, 4), (4, 0, 12, 3)]
+    ("i", "j", "k", "l"),
+    [(2, 1, 8, 3), (4, 2, 3, 5), (5, 4, 2, 4), (7, 0, 9, 6), (9, 2, 5, 4), (10, 2, 5, 4), (4, 0, 12, 3)],
 )
 def test_at_its_nodes_the_march_has_the_half_spaces_force_and_moment(i, j, k, l):
     np.testing.assert_allclose(forces(*node(i, j, k, l)), FORCES[i, j, k, l, :3], atol=0.004)
@@ -71,6 +72,38 @@ def test_slender_ellipses_that_begin_to_slip_have_no_jump_between_the_nodes():
         off.append(math.hypot(*(found[:2] - force)))
     assert max(off) < 0.026
     assert sum(off) < 6 * 0.015
+
+
+#: alpha and beta [rad], r on an ellipse with a/b = 30; Fx and Fy over mu N by our half space, 60 x 60 elements on Hertz's
+#: pressure, and errors of `table` and of the march where the table ended at a/b = 17.8.
+SLENDER = (
+    (1.14, -0.02, 4.2, -0.4724, -0.8813, 0.0086, 0.0005),
+    (0.54, -0.09, 4.8, -0.9028, -0.4275, 0.0082, 0.0041),
+    (0.68, -0.56, 3.2, -0.8967, -0.1004, 0.0076, 0.0044),
+    (1.28, 0.15, 5.7, -0.3179, -0.9469, 0.0061, 0.0003),
+)
+
+
+@pytest.mark.parametrize("case", SLENDER)
+def test_ellipses_as_slender_as_patches_on_flanges_have_the_half_spaces_force(case):
+    """A third of the patches on flanges have a/b from 18 to 32."""
+    alpha, beta, r, Fx, Fy, *before = case
+    at = creep_table.creepage(math.log(30.0), alpha, beta, r / (r + table.R0))
+    for tangential, off in zip(("table", "fastrip_mapped"), before, strict=True):
+        found = contact.solve(
+            ellipse(30.0, C, LOAD, creep_table.MATERIAL), at, load=LOAD, friction=MU, material=creep_table.MATERIAL,
+            normal="hertz", tangential=tangential,
+        )  # fmt: skip
+        now = math.hypot(found.Fx / (MU * LOAD) - Fx, found.Fy / (MU * LOAD) - Fy)
+        assert now < (0.5 * off if tangential == "table" else off + 0.001)
+
+
+@pytest.mark.parametrize("creepage", [(1e-3, -4e-4, 0.3), (4e-4, 8e-4, -0.9), (0.0, 1e-3, 0.0)])
+def test_a_patch_rolls_the_same_wherever_the_origin_lies(creepage):
+    """Forces, and the moment about the patch, depend only on the creepages at its middle."""
+    here = forces(1.6, creepage)
+    for y in (-5e-3, 1e-3, 20e-3):
+        np.testing.assert_allclose(forces(1.6, creepage, y=y), here, atol=1e-9)
 
 
 @pytest.mark.parametrize("a_over_b", [0.3, 1.0, 4.0])

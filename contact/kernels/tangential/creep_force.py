@@ -17,7 +17,7 @@ from contact.kernels.tangential.ellipses import equivalent_ellipse
 from contact.kernels.tangential.fastsim import NO_FRICTION
 from contact.kernels.tangential.linear import linear, saturated
 from contact.kernels.tangential.polach import polach
-from contact.kernels.tangential.table import lookup
+from contact.kernels.tangential.table import is_beyond, lookup
 from contact.kernels.tangential.vermeulen_johnson import vermeulen_johnson
 
 
@@ -69,6 +69,8 @@ def creep_force(part, case, workspace, result):
     limit = case.mu * bound
     if limit <= NO_FRICTION * case.G * a * b:
         limit = 0.0
+    if case.tangential == Tangential.TABLE and is_beyond(math.log(a / b)):
+        result.beyond += part.N / max(result.N, 1e-300)
     Fx, Fy, Mz, slip = of_ellipse(case, (vx, vy, phi), a, b, limit, workspace.tables)
     result.Fx += Fx
     result.Fy += Fy

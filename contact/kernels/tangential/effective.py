@@ -22,7 +22,7 @@ from contact.kernels.rows import Strip
 from contact.kernels.tangential.ellipses import mean_ellipse
 from contact.kernels.tangential.fastsim import NO_FRICTION
 from contact.kernels.tangential.skew import coupled
-from contact.kernels.tangential.table import Part, interpolated, signs, units
+from contact.kernels.tangential.table import Part, interpolated, is_beyond, signs, units
 from contact.kernels.tangential.ties import share_shape
 
 #: What a lopsided shape has (mapped_strip.md Eq. lopsided): longitudinal creepage by lateral creepage and by spin, lateral by
@@ -49,9 +49,9 @@ def _on_lopsided(lopsided, ahead, X, Y, Z):
 
 @kernel
 def _changes(strips, first, last, case, centre, of_patch, tables):
-    """Return the changes of creepages and map exponent for the shape that is shared. Rigid slip is referred to y = `centre`.
+    """Return the changes of creepages and map exponent for the shape that is shared, and 1 if it is beyond the table.
 
-    `of_patch` is that of `set_shapes`.
+    Rigid slip is referred to y = `centre`. `of_patch` is that of `set_shapes`.
 
     The equivalent ellipse has the shape's area and mean length. On our own patches this is better than
     the longest strip (.0054 instead of .0058 of mu N on new profiles). Creepages that differ from strip to strip enter by
@@ -76,7 +76,7 @@ def _changes(strips, first, last, case, centre, of_patch, tables):
         phi += weight * strips[Strip.PHI, i]
     limit *= 0.5 * math.pi * case.mu
     if not limit > NO_FRICTION * G * a * b or (vx == 0.0 and vy == 0.0 and phi == 0.0):
-        return 0.0, 0.0, 0.0, 0.0
+        return 0.0, 0.0, 0.0, 0.0, 0.0
     x, vx, vy, phi = x / weights, vx / weights, vy / weights, phi / weights
     log_aspect, c = math.log(a / b) + of_patch[2], math.sqrt(a * b)
     coefficients = kalker.coefficients(tables.kalker, log_aspect)
@@ -98,6 +98,7 @@ def _changes(strips, first, last, case, centre, of_patch, tables):
         (sign_y * r * to_y + by_side_y) / unit_y - to_spin * x + by_turn_y,
         to_spin,
         exponent,
+        1.0 if is_beyond(log_aspect) else 0.0,
     )
 
 
@@ -112,15 +113,21 @@ def _mix(strips, i, j, k, share):
 
 
 @kernel
-def _set_changes(strips, first, last, i, back, case, of_patch, tables):
-    """Set the changes of strip i of a patch: those of strip i - `back` if it has the same shape."""
+def _set_changes(strips, first, last, i, back, case, of_patch, tables, beyond):
+    """Set the changes of strip i of a patch: those of strip i - `back` if it has the same shape.
+
+    Return 1 if they were read beyond the table, else 0; `beyond` is what strip i - `back` had.
+    """
     if i - back >= first and strips[Strip.TIE, i] * strips[Strip.TIE, i - back + 1] == 1.0:
         _mix(strips, i, i - back, i - back, 0.0)
-        return
+        return beyond
     share_shape(strips, first, last, i)
-    to_x, to_y, to_phi, exponent = _changes(strips, first, last, case, strips[Strip.CENTRE, i], of_patch, tables)
+    to_x, to_y, to_phi, exponent, outside = _changes(
+        strips, first, last, case, strips[Strip.CENTRE, i], of_patch, tables
+    )
     strips[Strip.TO_X, i], strips[Strip.TO_Y, i] = to_x, to_y
     strips[Strip.TO_PHI, i], strips[Strip.TO_EXPONENT, i] = to_phi, exponent
+    return outside
 
 
 @kernel
@@ -134,15 +141,19 @@ def _is_read(i, first, last):
 def set_effective(strips, first, last, case, of_patch, tables):
     """Set the effective creepages and the map exponent of every strip of one patch, as changes.
 
-    `of_patch` is that of `set_shapes`. The table takes .9 µs. Where shapes change it is read for every other strip. A strip
-    between two others gets a mean of theirs, in which the one that it is tied to more closely has the greater weight.
+    Return the share of the load of the strips for which the table was read beyond its a/b. `of_patch` is that of `set_shapes`.
+    The table takes .9 µs. Where shapes change it is read for every other strip. A strip between two others gets a mean of
+    theirs, in which the one that it is tied to more closely has the greater weight.
     """
-    before = first
+    before, beyond, outside, load = first, 0.0, 0.0, 0.0
     for i in range(first, last):
         if _is_read(i, first, last):
-            _set_changes(strips, first, last, i, max(i - before, 1), case, of_patch, tables)
+            beyond = _set_changes(strips, first, last, i, max(i - before, 1), case, of_patch, tables, beyond)
             before = i
+            share = strips[Strip.P0, i] * strips[Strip.A, i] * strips[Strip.DY, i]
+            load, outside = load + share, outside + beyond * share
     for i in range(first + 1, last - 1):
         if not _is_read(i, first, last):
             low, high = 1.0 - strips[Strip.TIE, i], 1.0 - strips[Strip.TIE, i + 1]
             _mix(strips, i, i - 1, i + 1, low / max(low + high, 1e-300))  # 0 / 0 would be a trap
+    return outside / max(load, 1e-300)

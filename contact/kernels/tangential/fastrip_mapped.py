@@ -306,7 +306,8 @@ def set_shapes(first: int, last: int, workspace: Workspace) -> OfPatch:
 
 @kernel
 def fastrip_mapped(part, case, workspace, result):
-    """Fill the traction, slip and stick fields of one patch. Add its forces, power and slip area to `result`."""
+    """Fill the traction, slip and stick fields of one patch. Add its forces, power, slip area and `beyond` to `result`."""
     of_patch = set_shapes(part.first, part.last, workspace)
-    set_effective(workspace.strips, part.first, part.last, case, of_patch, workspace.tables)
+    beyond = set_effective(workspace.strips, part.first, part.last, case, of_patch, workspace.tables)
+    result.beyond += beyond * part.N / max(result.N, 1e-300)
     roll_patch(part.first, part.last, case, of_patch, workspace, result)

@@ -34,10 +34,10 @@ from contact.kernels.cubic import convolution
 
 Array = NDArray[np.float64]
 NU = 0.28
-#: Number of nodes of ln(a/b) from LOG_ASPECT_MIN to LOG_ASPECT_MAX (a/b = .1 to 17.8, as flanges have slender patches), of
-#: alpha from 0 to 90°, of beta from -90° to 90°, of rho from 0 to 1.
-N_ASPECT, N_ALPHA, N_BETA, N_RHO = 10, 6, 17, 16
-LOG_ASPECT_MIN, LOG_ASPECT_MAX, R0 = -math.log(10.0), 1.25 * math.log(10.0), 1.5
+#: Number of nodes of ln(a/b) from LOG_ASPECT_MIN to LOG_ASPECT_MAX (a/b = .1 to 31.6; a third of the patches on flanges have 18
+#: to 32), of alpha from 0 to 90°, of beta from -90° to 90°, of rho from 0 to 1.
+N_ASPECT, N_ALPHA, N_BETA, N_RHO = 11, 6, 17, 16
+LOG_ASPECT_MIN, LOG_ASPECT_MAX, R0 = -math.log(10.0), 1.5 * math.log(10.0), 1.5
 #: Shape of the array that kernels take: one more node on every side, and twice four numbers.
 SHAPE = (N_ASPECT + 2, N_ALPHA + 2, N_BETA + 2, N_RHO + 2, 8)
 
@@ -71,6 +71,12 @@ def units(G, c, limit, log_aspect, coefficients):
 def signs(X, Y, Z):
     """Return the signs of the two symmetries that make X and Y, or Z where Y is zero, 0 or more."""
     return 1.0 if X >= 0.0 else -1.0, 1.0 if Y > 0.0 or (Y == 0.0 and Z >= 0.0) else -1.0
+
+
+@kernel
+def is_beyond(log_aspect):
+    """Return whether ln(a/b) lies beyond the table, which then answers with its outermost nodes."""
+    return log_aspect < LOG_ASPECT_MIN or log_aspect > LOG_ASPECT_MAX
 
 
 @kernel

@@ -9,7 +9,7 @@ import contact
 from contact import Status, registry
 from contact.inputs.material import THERMAL_RANGE, Thermal
 from contact.inputs.options import HOT_FACTOR, N_ELEMENTS, N_STRIPS, TEMPERATURE, TEMPERATURE_RANGE
-from contact.results import BEND
+from contact.results import BEND, BEYOND
 from ..rows import Limits, of, output, parameter, taken
 from ..variables import Enumeration, Variable
 
@@ -256,6 +256,18 @@ def bend(record: str, depends: tuple[str, ...] | None = None) -> Variable:
         nominal=0.1,
         depends=depends,
         member=f"{record}.bend",
+    )
+
+
+def beyond(record: str) -> Variable:
+    """Return how much of the load is on shapes beyond the table of creep forces."""
+    return output(
+        "beyond",
+        "Largest share of a patch's load on shapes whose a/b is beyond the table of creep forces. "
+        f"Above {BEYOND:g} forces are doubtful",
+        minimum=0.0,
+        maximum=1.0,
+        member=f"{record}.beyond",
     )
 
 

@@ -254,6 +254,7 @@ def _outputs() -> Iterable[Variable]:
     yield from solver.status_and_totals("result", "speed")
     yield solver.gap_error("result", depends=_NORMAL_PROBLEM)
     yield solver.bend("result", depends=(*_NORMAL_PROBLEM, "geometry.surface", "geometry.tilt"))
+    yield solver.beyond("result")
 
 
 def _fields() -> Iterable[Variable]:

@@ -278,6 +278,7 @@ def outputs() -> Iterable[Variable]:
             member=f"elastic_rail.d{axis}",
         )
     yield solver.bend("total")
+    yield solver.beyond("total")
     yield from _accumulated()
 
 
