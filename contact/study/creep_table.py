@@ -110,15 +110,17 @@ def _solved(separation: Separation, slip: Creepage, elements: int) -> Solution:
 
 
 def _row(job: tuple[int, int, int, int]) -> str:
-    """Return one line of the file. Runs in a separate process."""
+    """Return one line of the file. Runs in a separate process. Pure spin is solved one way round; the other is its mirror image."""
     i, j, k, elements = job
+    mirrored = -1.0 if k == 0 else 1.0
     log_aspect, alpha, beta, rho = table.nodes()
     separation = ellipse(math.exp(log_aspect[i]), C, LOAD, MATERIAL)
     numbers = []
     for share in rho[1:]:
-        s = _solved(separation, creepage(float(log_aspect[i]), float(alpha[j]), float(beta[k]), float(share)), elements)
+        slip = creepage(float(log_aspect[i]), float(alpha[j]), mirrored * float(beta[k]), float(share))
+        s = _solved(separation, slip, elements)
         scale = FRICTION * LOAD
-        numbers += [s.Fx / scale, s.Fy / scale, s.Mz / (scale * C), s.slip_ratio]
+        numbers += [s.Fx / scale, mirrored * s.Fy / scale, mirrored * s.Mz / (scale * C), s.slip_ratio]
     return ",".join(short(number) for number in numbers)
 
 
