@@ -110,7 +110,10 @@ def _solved(separation: Separation, slip: Creepage, elements: int) -> Solution:
 
 
 def _row(job: tuple[int, int, int, int]) -> str:
-    """Return one line of the file. Runs in a separate process. Pure spin is solved one way round; the other is its mirror image."""
+    """Return one line of the file. Runs in a separate process.
+
+    Pure spin is solved one way round; the other is its mirror image.
+    """
     i, j, k, elements = job
     mirrored = -1.0 if k == 0 else 1.0
     log_aspect, alpha, beta, rho = table.nodes()
