@@ -84,7 +84,7 @@ def test_fmi_3_says_the_same(native_fmi3_folder):
 
 def test_a_patch_beyond_the_table_of_creep_forces_is_told_once(opened):
     fmu = opened("EllipticContact")
-    fmu.update({"geometry.A0": 1.1, "geometry.B0": 0.28, "load.normal_force": 8e4})
+    fmu.update({"geometry.A0": 1.1, "geometry.B0": 0.28, "load.normal_force": 8e4, "creepage.longitudinal": 1e-3})
     fmu.initialize().step()
     assert fmu["beyond"] == 0.0
     fmu.update({"geometry.A0": 6.9, "geometry.B0": 0.0588})  # a/b = .05
