@@ -232,17 +232,6 @@ def test_polach_has_a_lateral_force_from_spin_alone(ellipse):
     assert force[2] < 0.01
 
 
-def test_creepage_is_that_of_the_patches_middle(ellipse):
-    """A patch off the origin rolls with vx - phi y, and its force has a moment about the origin."""
-    y = 3e-3
-    aside = contact.Separation(ellipse.y + y, ellipse.g, ellipse.A)
-    for law in LAWS:
-        one = solve(ellipse, 1e-3 - 0.2 * y, 5e-4, 0.2, tangential=law)
-        other = solve(aside, 1e-3, 5e-4, 0.2, tangential=law)
-        np.testing.assert_allclose((other.Fx, other.Fy), (one.Fx, one.Fy), rtol=1e-6, atol=1e-6 * MU * N, err_msg=law)
-        assert other.Mz == pytest.approx(one.Mz - y * one.Fx, abs=1e-6 * MU * N * y)
-
-
 @pytest.mark.parametrize("law", LAWS)
 def test_no_friction_or_no_creepage_no_force(law, ellipse):
     at_rest = solve(ellipse, tangential=law)
