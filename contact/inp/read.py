@@ -10,8 +10,8 @@ from typing import Any
 from contact.errors import warn
 from contact.inp.case import Case
 from contact.inp.controls import WORDS, Digit
-from contact.inp.fields import Array, Block, Field, Group, d, i, maybe
-from contact.inp.table import BLOCKS, POTENTIAL, SUBSURFACE_ROWS, SUBSURFACE_TYPES
+from contact.inp.fields import Array, Block, Field, Group, i, maybe
+from contact.inp.table import BLOCKS, OF_FRICTION, POTENTIAL, SUBSURFACE, SUBSURFACE_TYPES
 from contact.inp.words import Lines
 
 _MODULE = Group((i("MODULE"), maybe(i("REID", 0, 999), 0), maybe(i("CPID", 1, 9), 1)))
@@ -186,7 +186,8 @@ class _Reader:
             return
         if isinstance(block, Group):
             if any(name == "LAW" for name, _ in block.kept):
-                self.forget_friction(now)
+                for name in OF_FRICTION:
+                    now.pop(name, None)
             if block.repeat is None:
                 self.group(block, now, fresh)
             else:
@@ -209,16 +210,6 @@ class _Reader:
         else:
             now["SUBS"] = self.subsurface()
             fresh["SUBS"] = self.lines.number
-
-    @staticmethod
-    def forget_friction(now: dict[str, Any]) -> None:
-        for name in ("FSTAT", "FKIN", "FREF", "TREF", "DFHEAT", "DTHEAT", "ALPHA", "SVF", "MEMDST", "MEM_S0"):
-            now.pop(name, None)
-        for law in ("LIN", "RAT", "EXP"):
-            for k in "12":
-                now.pop(f"F{law}{k}", None)
-        for k in "12":
-            now.pop(f"SABSH{k}", None)
 
     def group(self, group: Group, now: dict[str, Any], fresh: dict[str, int]) -> None:
         """Read one group of values into `now`, and their lines into `fresh`."""
@@ -273,21 +264,8 @@ class _Reader:
                 self.lines.refuse(f"ISUBS = {kind}; allowed: 0 or {', '.join(map(str, SUBSURFACE_TYPES))}")
             if len(blocks) == _MOST_BLOCKS:
                 self.lines.refuse(f"more than {_MOST_BLOCKS} blocks of points below the surface")
-            if kind == 9:
-                self.group(Group(tuple(i(name, 1, 100_000) for name in ("NX", "NY", "NZ"))), block, {})
-                for name in "XYZ":
-                    block[name] = self.lines.array(name, block["N" + name], (1e-3,))
-            else:
-                for group in SUBSURFACE_ROWS.get(kind % 4, ()):
-                    self.group(group, block, {})
-                if kind % 4 == 3:
-                    for name in "XY":
-                        block["I" + name] = self.lines.array("I" + name, block["N" + name], (1.0,))
-                if kind < 4:
-                    self.group(Group((i("NZ", 1, 100_000), d("ZL", 1e-3), d("DZ", 1e-3))), block, {})
-                else:
-                    self.group(Group((i("NZ", 1, 100_000),)), block, {})
-                    block["Z"] = self.lines.array("Z", block["NZ"], (1e-3,))
+            for part in SUBSURFACE:
+                self.block(part, block, {})
             blocks.append(block)
 
     def check(self, module: int, digits: dict[str, int], values: dict[str, Any]) -> None:

@@ -79,6 +79,8 @@ _FRICTION_1 = (
     _laws(lambda n: _reads_law(n) and n["V"] == 2, lambda n: int(n["NVF"]), (d("SVF", MM),)),
     Group(_MEMORY, lambda n: n["L"] in (2, 3, 4, 6)),
 )
+#: Names that a new law of friction forgets.
+OF_FRICTION = frozenset(field.name for group in _FRICTION_1 for field in group.fields) - {"NVF"}
 
 
 def _new_numbers(n: Now) -> bool:
@@ -388,9 +390,28 @@ MODULE_1: tuple[Block, ...] = (
 )
 BLOCKS: dict[int, tuple[Block, ...]] = {1: MODULE_1, 3: MODULE_3}
 
-#: Fields of a block of points below the surface by ISUBS modulo 4, and whether its depths are a list. Type 9 has lists.
-SUBSURFACE_ROWS: dict[int, tuple[Group, ...]] = {
-    2: (Group((i("IXL"), i("IXINC"), i("IXH"))), Group((i("IYL"), i("IYINC"), i("IYH")))),
-    3: (Group((i("NX", 1, 100_000), i("NY", 1, 100_000))),),
-}
+
+def _kinds(*kinds: int) -> Callable[[Now], bool]:
+    return lambda n: n["ISUBS"] in kinds
+
+
+def _listed(name: str, count: str, factor: float, when: Callable[[Now], bool]) -> Array:
+    return Array(name, lambda n: int(n[count]), lambda n: (factor,), when=when)
+
+
+_MOST_POINTS = 100_000
+#: A block of points below the surface after its ISUBS.
+SUBSURFACE: tuple[Group | Array, ...] = (
+    Group((i("IXL"), i("IXINC"), i("IXH")), _kinds(2, 6)),
+    Group((i("IYL"), i("IYINC"), i("IYH")), _kinds(2, 6)),
+    Group((i("NX", 1, _MOST_POINTS), i("NY", 1, _MOST_POINTS)), _kinds(3, 7)),
+    _listed("IX", "NX", 1.0, _kinds(3, 7)),
+    _listed("IY", "NY", 1.0, _kinds(3, 7)),
+    Group((i("NZ", 1, _MOST_POINTS), d("ZL", MM), d("DZ", MM)), _kinds(1, 2, 3)),
+    Group((i("NZ", 1, _MOST_POINTS),), _kinds(5, 6, 7)),
+    Group(tuple(i(name, 1, _MOST_POINTS) for name in ("NX", "NY", "NZ")), _kinds(9)),
+    _listed("X", "NX", MM, _kinds(9)),
+    _listed("Y", "NY", MM, _kinds(9)),
+    _listed("Z", "NZ", MM, _kinds(5, 6, 7, 9)),
+)
 SUBSURFACE_TYPES = (1, 2, 3, 5, 6, 7, 9)

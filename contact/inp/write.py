@@ -11,8 +11,8 @@ from typing import Any
 from contact.errors import ContactError
 from contact.inp.case import Case
 from contact.inp.controls import WORDS
-from contact.inp.fields import Array, Field, Group
-from contact.inp.table import BLOCKS, SUBSURFACE_ROWS
+from contact.inp.fields import Array, Block, Field, Group
+from contact.inp.table import BLOCKS, SUBSURFACE
 
 _PER_LINE = 8
 
@@ -81,8 +81,12 @@ def _case(case: Case, file: Path) -> list[str]:
         digits = "".join(str(case.digits[digit.letter]) for digit in used)
         damping = f" {10 * case.digits['WEIGHTING'] + case.digits['M2']}" if k == 1 else ""
         lines.append(f" {digits}{damping}   {'-'.join(digit.letter[0] for digit in used)}")
-    now = {**case.values, **case.digits}
-    for block in BLOCKS[case.module]:
+    return lines + _blocks(BLOCKS[case.module], {**case.values, **case.digits}, case, file)
+
+
+def _blocks(blocks: Sequence[Block], now: dict[str, Any], case: Case, file: Path) -> list[str]:
+    lines: list[str] = []
+    for block in blocks:
         if not block.when(now):
             continue
         if isinstance(block, Group):
@@ -92,7 +96,7 @@ def _case(case: Case, file: Path) -> list[str]:
             lines.extend(_array(_known(now, block.name, case), block.factors(now)))
         else:
             for points in _known(now, "SUBS", case):
-                lines.extend(_points(points))
+                lines += [f" {points['ISUBS']}   ISUBS", *_blocks(SUBSURFACE, points, case, file)]
             lines.append(" 0   ISUBS")
     return lines
 
@@ -142,24 +146,3 @@ def number(value: float, factor: float = 1.0) -> str:
 def _array(values: Sequence[float], factors: tuple[float, ...]) -> list[str]:
     texts = [number(value, factors[k % len(factors)]) for k, value in enumerate(values)]
     return ["  " + "  ".join(texts[k : k + _PER_LINE]) for k in range(0, len(texts), _PER_LINE)]
-
-
-def _points(block: dict[str, Any]) -> list[str]:
-    kind = block["ISUBS"]
-    lines = [f" {kind}   ISUBS"]
-    if kind == 9:
-        lines.append(f" {block['NX']} {block['NY']} {block['NZ']}   NX, NY, NZ")
-        for name in "XYZ":
-            lines.extend(_array(block[name], (1e-3,)))
-        return lines
-    groups = SUBSURFACE_ROWS.get(kind % 4, ())
-    lines.extend(" " + " ".join(str(block[field.name]) for field in group.fields) for group in groups)
-    if kind % 4 == 3:
-        for name in ("IX", "IY"):
-            lines.extend(_array(block[name], (1.0,)))
-    if kind < 4:
-        lines.append(f" {block['NZ']} {number(block['ZL'], 1e-3)} {number(block['DZ'], 1e-3)}   NZ, ZL, DZ")
-    else:
-        lines.append(f" {block['NZ']}   NZ")
-        lines.extend(_array(block["Z"], (1e-3,)))
-    return lines
