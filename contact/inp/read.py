@@ -11,7 +11,8 @@ from contact.errors import warn
 from contact.inp.case import Case
 from contact.inp.controls import WORDS, Digit
 from contact.inp.fields import Array, Block, Field, Group, i, maybe
-from contact.inp.table import BLOCKS, OF_FRICTION, POTENTIAL, SUBSURFACE, SUBSURFACE_TYPES
+from contact.inp.subsurface import SUBSURFACE, SUBSURFACE_TYPES
+from contact.inp.table import BLOCKS, OF_FRICTION, POTENTIAL
 from contact.inp.words import Lines
 
 _MODULE = Group((i("MODULE"), maybe(i("REID", 0, 999), 0), maybe(i("CPID", 1, 9), 1)))

@@ -12,7 +12,8 @@ from contact.errors import ContactError
 from contact.inp.case import Case
 from contact.inp.controls import WORDS
 from contact.inp.fields import Array, Block, Field, Group
-from contact.inp.table import BLOCKS, SUBSURFACE
+from contact.inp.subsurface import SUBSURFACE
+from contact.inp.table import BLOCKS
 
 _PER_LINE = 8
 
