@@ -58,7 +58,7 @@ def make_no_machine_code() -> None:
 
     `modules_of` then links the functions, each once, and LLVM optimises them as a whole.
     """
-    from numba.core import codegen, cpu, registry
+    from numba.core import codegen, cpu, postproc, registry, rewrites, transforms
     from numba.core.runtime.context import NRTContext
     from numba.core.types import functions
 
@@ -81,9 +81,18 @@ def make_no_machine_code() -> None:
         self._impl_keys[signature.args] = implementation
         return signature
 
+    def find_no_lives(self: Any, emit_dels: bool = False, extend_lifetimes: bool = False) -> None:
+        made = self.func_ir
+        made.blocks = transforms.canonicalize_cfg(made.blocks)
+        made.variable_lifetime, made.generator_info = postproc.VariableLifetime(made.blocks), None
+
     registry.cpu_target.target_context.refresh()
     gc.disable()
     share_overloads()
+    # Numba looks nine times for what lives how long, to count references, and for array expressions, which kernels have not:
+    # a quarter of its time.
+    rewrites.rewrite_registry.rewrites["after-inference"].clear()
+    postproc.PostProcessor.run = find_no_lives
     functions.BaseFunction.get_call_type = get_call_type  # type: ignore[method-assign]
     codegen.JITCodeLibrary.add_llvm_module = lambda library, module: library._final_module.link_in(module)
     codegen.JITCodeLibrary.finalize = finish

@@ -18,6 +18,7 @@ import sys
 from collections.abc import Callable, Iterator, Sequence
 from importlib import import_module
 from multiprocessing import get_context
+from multiprocessing.process import BaseProcess
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -28,12 +29,20 @@ from contact.version import __version__
 
 #: Beginning of the names of the functions that the C interface calls.
 PREFIX = "wrk"
-#: Kernels for whole problems of a patch. Those of the others that call them do so in the first object.
-_OFFERED = (
+#: Large kernels of the object of patches and of that of pairs. Those of later objects that call them do so where they are.
+_OF_PATCHES = (
     "contact.kernels.normal.press.press",
+    "contact.kernels.normal.tangent.linearise",
+    "contact.kernels.normal.tangent.follow",
+    "contact.kernels.normal.descent.fill_descent",
+    "contact.kernels.normal.factors.fill_factors",
     *(f"contact.kernels.pipeline.{name}" for name in ("press_case", "complete_pressure", "roll_case", "solve_case")),
+    *(f"contact.kernels.jacobian.{name}" for name in ("solve_with_jacobian", "derive_solved", "roll_creepages")),
+    "contact.kernels.together.roll_together",
+    "contact.kernels.given_force.solve_under_force",
     "contact.kernels.damage.assess.damage_kernel",
 )
+_OF_PAIRS = ("contact.kernels.pair_conditions.derive_pair", "contact.kernels.flexible.solve_flexible")
 #: The C sources of the C interface.
 C_INTERFACE = sorted((get_include().parent / "c").glob("*.c"))
 
@@ -158,26 +167,48 @@ def write_declarations(folder: Path, ends: tuple[str, ...]) -> None:
 def write_objects(kernels: Kernels, folder: Path, *, first: bool) -> None:
     """Write the objects for this machine: of all kernels, or only of the `first`, those behind `contact.solve`.
 
-    A process of its own optimises these while numba makes the others. A system that cannot fork gets one object.
+    A process of its own optimises these, and one those of `contact`, while numba makes what is left. A system that cannot
+    fork gets one object.
     """
+    from contact.core.compiled import as_c_function
+
     data = emit.data_as_ir(kernels.data)
     if not first and not hasattr(os, "fork"):
         _write_object(kernels.emission(kernels.of_python, True), kernels.exported, data, folder / "kernels.o")
         return
-    these = [one for one in kernels.of_python if is_first(one.function.__module__)]
-    made = kernels.emission(these, False)
-    given = made, kernels.exported, data, folder / "first.o"
+    made = kernels.emission([one for one in kernels.of_python if is_first(one.function.__module__)], False)
     if first:
-        _write_object(*given)
+        _write_object(made, kernels.exported, data, folder / "first.o")
         return
-    elsewhere = [function for name in _OFFERED for function in made.offer(_kernel(name))]
-    beside = get_context("fork").Process(target=_write_object, args=given, daemon=True)
-    beside.start()
-    others = kernels.emission([one for one in kernels.of_python if one not in these], True, elsewhere)
+    rest = [one for one in kernels.of_python if one.symbol not in made.names]
+    for one in rest:
+        if one.dispatcher.overloads:  # these entries of one patch cost nothing here, and a copy of it elsewhere
+            made.add_entry(one.symbol, as_c_function(one))
+    elsewhere = _offered(made, _OF_PATCHES)
+    beside = [_begin_object(made, kernels.exported, data, folder / "first.o")]
+    rest = [one for one in rest if one.symbol not in made.names]
+    of_contact = [one for one in rest if one.function.__module__.startswith("contact.")]
+    made = kernels.emission(of_contact, False, elsewhere)
+    elsewhere = [*elsewhere, *_offered(made, _OF_PAIRS)]
+    beside.append(_begin_object(made, kernels.exported, "", folder / "pairs.o"))
+    others = kernels.emission([one for one in rest if one not in of_contact], True, elsewhere)
     _write_object(others, kernels.exported, "", folder / "others.o")
-    beside.join()
-    if beside.exitcode:
-        raise RuntimeError("the object of the first kernels could not be written")
+    for process in beside:
+        process.join()
+        if process.exitcode:
+            raise RuntimeError("an object of the library could not be written")
+
+
+def _begin_object(*given: Any) -> BaseProcess:
+    """Let a process of its own write an object (`_write_object`)."""
+    process = get_context("fork").Process(target=_write_object, args=given, daemon=True)
+    process.start()
+    return process
+
+
+def _offered(made: emit.Emission, names: Sequence[str]) -> list[Any]:
+    """Let other modules call kernels, by their names, where an emission has them."""
+    return [function for name in names for function in made.offer(_kernel(name))]
 
 
 def _kernel(name: str) -> Any:

@@ -75,14 +75,26 @@ def build(folder: Path, *options: str) -> Path:
 
 @contextlib.contextmanager
 def locked(folder: Path) -> Iterator[None]:
-    """Let one process at a time build what belongs into a folder."""
+    """Let one process at a time build what belongs into a folder, and remove its lock afterwards."""
     folder.parent.mkdir(parents=True, exist_ok=True)
-    with (folder.parent / f"{folder.name}.lock").open("w") as held:
-        with contextlib.suppress(ImportError):  # not on Windows, where two processes may build the same
-            import fcntl
+    path = folder.parent / f"{folder.name}.lock"
+    while True:
+        with path.open("w") as held:
+            with contextlib.suppress(ImportError):  # not on Windows, where two processes may build the same
+                import fcntl
 
-            fcntl.flock(held, fcntl.LOCK_EX)
-        yield
+                fcntl.flock(held, fcntl.LOCK_EX)
+            try:
+                if not os.path.samestat(path.stat(), os.fstat(held.fileno())):
+                    continue
+            except FileNotFoundError:  # who had it has removed it
+                continue
+            try:
+                yield
+            finally:
+                with contextlib.suppress(OSError):
+                    path.unlink()
+            return
 
 
 def _run_builder(folder: Path, *options: str) -> None:
@@ -250,3 +262,7 @@ def _remove_stale(base: Path) -> None:
         age = time.time() - path.stat().st_mtime
         if age > _STALE or (i >= _MOST and age > _RECENT):
             shutil.rmtree(path, ignore_errors=True)
+    for path in base.glob(PREFIX + "*.lock"):  # of builds that were killed
+        with contextlib.suppress(OSError):
+            if time.time() - path.stat().st_mtime > _RECENT:
+                path.unlink()

@@ -6,6 +6,8 @@ import os
 import pickle
 import subprocess
 import sys
+import time
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 import numpy as np
@@ -231,6 +233,22 @@ checkout.build(pathlib.Path({str(tmp_path)!r}) / "library")
     whole = code.replace("os.kill(os.getpid(), signal.SIGKILL)", "(folder / 'others.o').write_text('whole')")
     assert run(whole).returncode == 0
     assert {path.name for path in (tmp_path / "library").iterdir()} == {"first.o", "others.o"}
+
+
+def test_one_at_a_time_builds_a_library_and_none_leaves_its_lock(tmp_path):
+    folder, inside, most = tmp_path / "library", [], []
+
+    def build(_):
+        with checkout.locked(folder):
+            inside.append(1)
+            time.sleep(1e-3)
+            most.append(len(inside))
+            inside.pop()
+
+    with ThreadPoolExecutor(8) as pool:
+        list(pool.map(build, range(64)))
+    assert max(most) == 1
+    assert not list(tmp_path.iterdir())
 
 
 def test_a_library_of_another_version_is_named(monkeypatch):
