@@ -3,12 +3,12 @@
 import math
 
 from contact.core import entry, kernel
-from contact.kernels import cubic
 from contact.kernels.arrays import Case, Cases, Integers, Matrix, Result, Results, Samples, Workspace
 from contact.kernels.conformal import bend, project, surface_at
 from contact.kernels.enumerations import Status, Tangential, TangentialFamily
 from contact.kernels.friction import of_bodies, of_case, over_profile
 from contact.kernels.normal.gap_error import gap_error
+from contact.kernels.normal.peak import peak_pressure
 from contact.kernels.normal.press import fill_limited, press, share_of
 from contact.kernels.rows import Element, Field, Strip
 from contact.kernels.tangential.creep_force import creep_force
@@ -16,40 +16,6 @@ from contact.kernels.tangential.ellipses import Part, end_of_patch, place_in_loa
 from contact.kernels.tangential.fastrip import fastrip
 from contact.kernels.tangential.fastrip_mapped import fastrip_mapped
 from contact.kernels.tangential.fastsim import fastsim
-
-
-@kernel
-def _square_slope(strips, i, first, last):
-    """Return the slope of p0² at strip i, from the parabola through it and its neighbours in the patch first … last."""
-    k = min(max(i, first + 1), last - 1)
-    y, left, right = strips[Strip.Y, k], strips[Strip.Y, k - 1], strips[Strip.Y, k + 1]
-    top = strips[Strip.P0, k] ** 2
-    d0 = (top - strips[Strip.P0, k - 1] ** 2) / (y - left)
-    d1 = (strips[Strip.P0, k + 1] ** 2 - top) / (right - y)
-    return d0 + (d1 - d0) / (right - left) * (2.0 * strips[Strip.Y, i] - left - y)
-
-
-@kernel
-def peak_pressure(strips, n):
-    """Return the largest pressure: the top of the cubics through p0² of the strips. It is exact for an ellipse."""
-    top, first = 0.0, 0
-    while first < n:
-        last = first
-        while last + 1 < n and strips[Strip.PATCH, last + 1] == strips[Strip.PATCH, first]:
-            last += 1
-        here = _square_slope(strips, first, first, last) if last >= first + 2 else 0.0
-        for i in range(first, last + 1):
-            square = strips[Strip.P0, i] ** 2
-            top = max(top, square)
-            if i == last or last < first + 2:
-                continue
-            before, here = here, _square_slope(strips, i + 1, first, last)
-            if before > 0.0 > here:
-                h = strips[Strip.Y, i + 1] - strips[Strip.Y, i]
-                _, least = cubic.least(h, -square, -before, -(strips[Strip.P0, i + 1] ** 2), -here)
-                top = max(top, -least)
-        first = last + 1
-    return math.sqrt(top)
 
 
 @kernel
@@ -168,7 +134,8 @@ def complete_pressure(sep, n, brief, case, workspace, result):
             fields[Field.DX, i, k] = a * elements[Element.DX, k]
             fields[Field.P, i, k] = p0 * elements[Element.SINE, k]
     count = int(strips[Strip.PATCH, n - 1]) + 1
-    result.area, result.pmax, result.n_patches = area, max(result.pmax, peak_pressure(strips, n)), count
+    result.area, result.n_patches = area, count
+    result.pmax = result.pmax if result.pmax > 0.0 else peak_pressure(strips, n)
     if 0.0 < case.pressure_limit < result.pmax:
         result.pmax, result.limited = case.pressure_limit, 1
         _limit_pressure(strips, n, case.pressure_limit, elements, fields, result.N)

@@ -23,24 +23,85 @@ _HIGH = 0.8
 _ALIKE = 0.15
 #: Parts of a strip.
 _PARTS = 3
+#: Strips at either side of a divided one whose pressures are taken at every part. Those beyond act smoothly.
+_NEAR = 4
 #: Least strips of a panel: the parts need room in the rows of `vectors`.
 _FEWEST = 8
 
 
 @kernel
-def _influence(at, y, half, a, centre):
-    """Return the displacement at y = `at` by unit pressure on a strip in line, times pi E* [m]."""
-    away = abs(at - y)
-    far, near = math.log((away + half) / a), math.log(max(abs(away - half), 1e-12 * half) / a)
-    u = at_centre(centre, near)
-    return a * (at_centre(centre, far) + (u if away < half else -u))
+def _is_beside(i, k, n, strips):
+    """Return whether strip k exists and lies in the patch of strip i."""
+    return 0 <= k < n and strips[Strip.PATCH, k] == strips[Strip.PATCH, i]
 
 
 @kernel
-def _by_strip(at, j, unit, strips, centre):
-    """Return the displacement at y = `at` by strip j in line [m]."""
-    p = unit * strips[Strip.P0, j]
-    return p * _influence(at, strips[Strip.Y, j], 0.5 * strips[Strip.DY, j], strips[Strip.A, j], centre)
+def _square_slope(i, n, strips):
+    """Return the slope of p0² at strip i, from the parabola through it and its neighbours in a patch of three or more."""
+    k = i + 1 if not _is_beside(i, i - 1, n, strips) else i - 1 if not _is_beside(i, i + 1, n, strips) else i
+    y, left, right = strips[Strip.Y, k], strips[Strip.Y, k - 1], strips[Strip.Y, k + 1]
+    top = strips[Strip.P0, k] ** 2
+    d0 = (top - strips[Strip.P0, k - 1] ** 2) / (y - left)
+    d1 = (strips[Strip.P0, k + 1] ** 2 - top) / (right - y)
+    return d0 + (d1 - d0) / (right - left) * (2.0 * strips[Strip.Y, i] - left - y)
+
+
+@kernel
+def _is_peak(i, n, strips):
+    """Return whether no neighbour in the patch has a larger pressure."""
+    higher_before = _is_beside(i, i - 1, n, strips) and strips[Strip.P0, i - 1] > strips[Strip.P0, i]
+    return not higher_before and not (_is_beside(i, i + 1, n, strips) and strips[Strip.P0, i + 1] > strips[Strip.P0, i])
+
+
+@kernel
+def _square_at(i, n, strips):
+    """Return the largest p0² around strip i, a peak: the top of the cubics through p0². It is exact for an ellipse."""
+    top = strips[Strip.P0, i] ** 2
+    before, after = _is_beside(i, i - 1, n, strips), _is_beside(i, i + 1, n, strips)
+    if not (before and after) and not _is_beside(i, i - 2, n, strips) and not _is_beside(i, i + 2, n, strips):
+        return top  # fewer than three strips
+    here = _square_slope(i, n, strips)
+    for k in range(i - 1 if before else i, i + 1 if after else i):  # from strip k to the next one
+        left = here if k == i else _square_slope(k, n, strips)
+        right = here if k < i else _square_slope(k + 1, n, strips)
+        if left > 0.0 > right:
+            h, low, high = strips[Strip.Y, k + 1] - strips[Strip.Y, k], strips[Strip.P0, k], strips[Strip.P0, k + 1]
+            _, least = cubic.least(h, -(low**2), -left, -(high**2), -right)
+            top = max(top, -least)
+    return top
+
+
+@kernel
+def peak_pressure(strips, n):
+    """Return the largest pressure of `n` strips and between them."""
+    top = 0.0
+    for i in range(n):
+        if _is_peak(i, n, strips):
+            top = max(top, _square_at(i, n, strips))
+    return math.sqrt(top)
+
+
+@kernel
+def _fill_logs(low, high, strips, logs):
+    """Fill the logarithms of the half lengths of the strips from `low` to before `high`."""
+    for j in range(low, high):
+        logs[j] = math.log(strips[Strip.A, j])
+
+
+@kernel
+def _displacement(at, low, high, unit, strips, logs, centre):
+    """Return the displacement at y = `at` by the strips in line from `low` to before `high`, whose ln a are `logs` [m]."""
+    total, beyond = 0.0, 0.0
+    for j in range(low, high):
+        y, half = strips[Strip.Y, j], 0.5 * strips[Strip.DY, j]
+        # elsewhere a strip begins where the one before ends
+        if j == low or strips[Strip.PATCH, j] != strips[Strip.PATCH, j - 1]:
+            beyond = math.log(max(abs(at - y + half), 1e-12 * half))
+        before, beyond = beyond, math.log(max(abs(at - y - half), 1e-12 * half))
+        first, last = at_centre(centre, before - logs[j]), at_centre(centre, beyond - logs[j])
+        u = first + last if abs(at - y) < half else abs(last - first)
+        total += unit * strips[Strip.P0, j] * strips[Strip.A, j] * u
+    return total
 
 
 @kernel
@@ -67,49 +128,65 @@ def _parabola(i, at, row, strips):
 
 
 @kernel
-def _half_length(i, at, strips):
-    """Return the half length at y = `at`: a² is linear between strip i and its neighbour on that side [m]."""
-    k = i if at < strips[Strip.Y, i] else i + 1
-    t = (at - strips[Strip.Y, k - 1]) / (strips[Strip.Y, k] - strips[Strip.Y, k - 1])
-    square = (1.0 - t) * strips[Strip.A, k - 1] ** 2 + t * strips[Strip.A, k] ** 2
-    return math.sqrt(max(square, 0.1 * min(strips[Strip.A, k - 1], strips[Strip.A, k]) ** 2))
+def _half_length(i, at, squares, strips):
+    """Return the half length at y = `at`: a² is the parabola through the `squares` of strip i and its neighbours [m]."""
+    least = 0.1 * min(squares[i - 1], squares[i], squares[i + 1])
+    return math.sqrt(max(_parabola(i, at, squares, strips), least))
 
 
 @kernel
-def _top_of_parts(sep, i, n, unit, workspace):
+def _fill_rest(sep, i, n, nearest, beyond, problem, logs, rest):
+    """Fill `rest` of strip i and its neighbours: what closes the gap there beside the pressures of the nearest strips [m].
+
+    The displacement by a panel's own strips has a factor (Eq. factors). Parts, which are narrower, need none, so what it adds
+    to the strips' is taken away here.
+    """
+    workspace, strips, vectors = problem.workspace, problem.workspace.strips, problem.workspace.space.vectors
+    slopes, centre = workspace.space.grid[Sample.GAP_SLOPE], workspace.tables.centre
+    for s in range(i - 1, i + 2):
+        y, half = strips[Strip.Y, s], 0.5 * strips[Strip.DY, s]
+        gap = _mean_gap(sep, slopes, y - half, y + half)
+        factor = vectors[Vector.OF_MIDDLE, int(vectors[Vector.INDEX, s])]
+        by_factor = (1.0 - 1.0 / factor) * (problem.result.approach - gap)
+        rest[s] = gap + by_factor + _displacement(y, nearest, beyond, problem.unit, strips, logs, centre)
+
+
+@kernel
+def _top_of_parts(i, n, problem):
     """Return the largest pressure of the parts of strip i and its neighbours, which lie in the same patch [Pa].
 
     What closes the gap at these strips beside the pressure of the nearest ones, approach and all distant strips, is
     smooth: a parabola. The outer parts make up for the pressure of the strips beside them, which has a step there. They do
     not count.
     """
+    workspace, sep, unit = problem.workspace, problem.sep, problem.unit
     strips, vectors, lu, centre = workspace.strips, workspace.space.vectors, workspace.space.lu, workspace.tables.centre
-    slopes, rest, patch = workspace.space.grid[Sample.GAP_SLOPE], vectors[Vector.U], strips[Strip.PATCH]
+    slopes, rest = workspace.space.grid[Sample.GAP_SLOPE], vectors[Vector.U]
     at, pressures, unused, logs = vectors[Vector.R], vectors[Vector.Q1], vectors[Vector.Q2], vectors[Vector.R_OLD]
-    nearest, beyond = max(i - 2, 0), min(i + 3, n)
-    for s in range(i - 1, i + 2):
-        y, half = strips[Strip.Y, s], 0.5 * strips[Strip.DY, s]
-        rest[s] = _mean_gap(sep, slopes, y - half, y + half)
-        for j in range(nearest, beyond):
-            rest[s] += _by_strip(y, j, unit, strips, centre)
+    logs_a, squares = vectors[Vector.REACH], vectors[Vector.SPREAD]
+    nearest, beyond = max(i - _NEAR, 0), min(i + _NEAR + 1, n)
+    _fill_logs(nearest, beyond, strips, logs_a)
+    _fill_rest(sep, i, n, nearest, beyond, problem, logs_a, rest)
     m = 3 * _PARTS
     for r in range(m):
         s = i - 1 + r // _PARTS
         half = 0.5 * strips[Strip.DY, s] / _PARTS
         at[r] = strips[Strip.Y, s] + (2 * (r % _PARTS) + 1 - _PARTS) * half
         pressures[r] = _parabola(i, at[r], rest, strips) - _mean_gap(sep, slopes, at[r] - half, at[r] + half)
+        pressures[r] -= _displacement(at[r], nearest, i - 1, unit, strips, logs_a, centre)
+        pressures[r] -= _displacement(at[r], i + 2, beyond, unit, strips, logs_a, centre)
         unused[r] = 0.0
-        for j in range(nearest, beyond):
-            if j < i - 1 or j > i + 1:
-                pressures[r] -= _by_strip(at[r], j, unit, strips, centre)
-    before = i - 1 if i > 1 and patch[i - 2] == patch[i] else i  # strips with two neighbours in the patch
-    after = i + 1 if i < n - 2 and patch[i + 2] == patch[i] else i
+    before = i - 1 if _is_beside(i, i - 2, n, strips) else i  # strips with two neighbours in the patch
+    after = i + 1 if _is_beside(i, i + 2, n, strips) else i
+    for s in range(before - 1, after + 2):
+        squares[s] = strips[Strip.A, s] ** 2
     side = strips[Strip.Y, i - 1] - 0.5 * strips[Strip.DY, i - 1]
     for r in range(m):
         logs[r] = math.log(abs(at[r] - side))
     for c in range(m):  # parts lie side by side: the upper side of one is the lower side of the next
         s = i - 1 + c // _PARTS
-        side, a = at[c] + 0.5 * strips[Strip.DY, s] / _PARTS, _half_length(min(max(s, before), after), at[c], strips)
+        side = at[c] + 0.5 * strips[Strip.DY, s] / _PARTS
+        a = _half_length(min(max(s, before), after), at[c], squares, strips)
         ln_a = math.log(a)
         for r in range(m):
             low = at_centre(centre, logs[r] - ln_a)
@@ -126,44 +203,56 @@ def _top_of_parts(sep, i, n, unit, workspace):
 
 
 @kernel
-def _found(sep, i, n, unit, workspace):
+def _found(i, n, problem):
     """Return the largest pressure around strip i, a peak. If a neighbour has nearly its pressure, both are divided.
 
     Otherwise the answer would jump where the peak moves from one strip to the next.
     """
-    p, patch = workspace.strips[Strip.P0], workspace.strips[Strip.PATCH]
-    top = _top_of_parts(sep, i, n, unit, workspace)
+    strips = problem.workspace.strips
+    p = strips[Strip.P0]
+    top = _top_of_parts(i, n, problem)
     k = i + 1 if p[i + 1] > p[i - 1] else i - 1
     apart = min((p[i] - p[k]) / (_ALIKE * p[i]), 1.0)
-    if apart == 1.0 or not 0 < k < n - 1 or patch[k - 1] != patch[k + 1]:
+    if apart == 1.0 or not (_is_beside(k, k - 1, n, strips) and _is_beside(k, k + 1, n, strips)):
         return top
     share = 0.5 + 0.5 * apart * apart * (3.0 - 2.0 * apart)
-    return share * top + (1.0 - share) * _top_of_parts(sep, k, n, unit, workspace)
+    return share * top + (1.0 - share) * _top_of_parts(k, n, problem)
 
 
 @kernel
-def _beside(i, step, n, strips):
+def _beyond(i, step, n, strips):
     """Return the pressure two strips away. Beyond the end of a patch it is that which continues an ellipse."""
     k = i + 2 * step
-    within = 0 <= k < n and strips[Strip.PATCH, k] == strips[Strip.PATCH, i]
-    return strips[Strip.P0, k] if within else -strips[Strip.P0, i + step]
+    return strips[Strip.P0, k] if _is_beside(i, k, n, strips) else -strips[Strip.P0, i + step]
 
 
 @kernel
-def peak_between_strips(sep, n, unit, workspace):
-    """Return the largest pressure found between `n` strips where a peak is sharp [Pa]; 0 if none is."""
-    strips, panel = workspace.strips, workspace.rule.cosines.size - 1
-    if panel < _FEWEST:
+def _sharpness(i, n, of_ellipse, strips):
+    """Return how far the parts of strip i and its neighbours count, from 0 to 1. `of_ellipse` is the bend of an ellipse."""
+    if not (_is_beside(i, i - 1, n, strips) and _is_beside(i, i + 1, n, strips)):
         return 0.0
-    p, patch, angle = strips[Strip.P0], strips[Strip.PATCH], math.pi / panel
+    p = strips[Strip.P0]
+    bend = (p[i - 1] - _beyond(i, -1, n, strips) + p[i + 1] - _beyond(i, 1, n, strips)) / p[i]
+    share = min(max((bend / of_ellipse - _SHARP) / (_SHARPEST - _SHARP), 0.0), 1.0)
+    return share * share * (3.0 - 2.0 * share)
+
+
+@kernel
+def peak_between_strips(n, problem):
+    """Return the largest pressure of `n` strips and between them [Pa]. Where a peak is sharp, that of its parts counts alone.
+
+    The row INDEX of the vectors says where each strip's number in the panels is.
+    """
+    workspace, strips = problem.workspace, problem.workspace.strips
+    p, panel = strips[Strip.P0], workspace.rule.cosines.size - 1
+    if panel < _FEWEST:
+        return peak_pressure(strips, n)
+    angle = math.pi / panel
     of_ellipse, top, largest = 2.0 * (math.cos(angle) - math.cos(2.0 * angle)), 0.0, 0.0
     for i in range(n):
         largest = max(largest, p[i])
-    for i in range(1, n - 1):
-        if patch[i - 1] == patch[i + 1] and p[i - 1] <= p[i] >= p[i + 1] and p[i] > _HIGH * largest:
-            bend = (p[i - 1] - _beside(i, -1, n, strips) + p[i + 1] - _beside(i, 1, n, strips)) / p[i]
-            share = min(max((bend / of_ellipse - _SHARP) / (_SHARPEST - _SHARP), 0.0), 1.0)
-            if share > 0.0:
-                found = _found(sep, i, n, unit, workspace)
-                top = max(top, p[i] + share * share * (3.0 - 2.0 * share) * (found - p[i]))
+    for i in range(n):
+        if p[i] > _HIGH * largest and _is_peak(i, n, strips):
+            smooth, share = math.sqrt(_square_at(i, n, strips)), _sharpness(i, n, of_ellipse, strips)
+            top = max(top, smooth + share * (_found(i, n, problem) - smooth) if share > 0.0 else smooth)
     return top

@@ -62,7 +62,7 @@ AT_END = 0.01
 def write_strips(sep, n_panels, panels, skewed, workspace, result):
     """Fill `workspace.strips` with the loaded strips in ascending order of y. Return their number.
 
-    Runs of neighbours are the patches.
+    Runs of neighbours are the patches. The row INDEX of the vectors keeps each one's number in the panels.
     """
     cosines, vectors = workspace.rule.cosines, workspace.space.vectors
     work, strips = workspace.space.grid, workspace.strips
@@ -102,6 +102,7 @@ def write_strips(sep, n_panels, panels, skewed, workspace, result):
             strips[Strip.P0, count] = vectors[Vector.P, row]
             strips[Strip.LN_ASPECT, count] = (1.0 - t) * work[Sample.LOG_ASPECT, k] + t * work[Sample.LOG_ASPECT, k + 1]
             strips[Strip.PATCH, count] = patch
+            vectors[Vector.INDEX, count] = row
             count += 1
     return count
 
@@ -270,7 +271,7 @@ def _solve(sep, case, workspace, result):
     lone = skew > 0.0 and _level_lone(n, n_panels, space.vectors)
     count = _report(problem, state.approach, n_panels)
     # parts of strips would make up for the pressure that was taken away
-    result.pmax = 0.0 if lone else peak_between_strips(sep, count, unit, workspace)
+    result.pmax = 0.0 if lone else peak_between_strips(count, problem)
     if not rests and result.status != Status.OUT_OF_RANGE:
         result.status = Status.NOT_CONVERGED
     elif result.status == Status.OUT_OF_RANGE:
