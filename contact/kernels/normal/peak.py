@@ -30,9 +30,20 @@ _FEWEST = 8
 
 
 @kernel
+def _continues(j, strips):
+    """Return whether strip j begins where the one before ends. Patches beyond the largest number of them share a number."""
+    away = strips[Strip.Y, j] - strips[Strip.Y, j - 1]
+    touches = away < 0.50001 * (strips[Strip.DY, j] + strips[Strip.DY, j - 1])
+    return touches and strips[Strip.PATCH, j] == strips[Strip.PATCH, j - 1]
+
+
+@kernel
 def _is_beside(i, k, n, strips):
     """Return whether strip k exists and lies in the patch of strip i."""
-    return 0 <= k < n and strips[Strip.PATCH, k] == strips[Strip.PATCH, i]
+    beside = 0 <= k < n
+    for j in range(min(i, k) + 1, max(i, k) + 1):
+        beside = beside and _continues(j, strips)
+    return beside
 
 
 @kernel
@@ -94,8 +105,7 @@ def _displacement(at, low, high, unit, strips, logs, centre):
     total, beyond = 0.0, 0.0
     for j in range(low, high):
         y, half = strips[Strip.Y, j], 0.5 * strips[Strip.DY, j]
-        # elsewhere a strip begins where the one before ends
-        if j == low or strips[Strip.PATCH, j] != strips[Strip.PATCH, j - 1]:
+        if j == low or not _continues(j, strips):
             beyond = math.log(max(abs(at - y + half), 1e-12 * half))
         before, beyond = beyond, math.log(max(abs(at - y - half), 1e-12 * half))
         first, last = at_centre(centre, before - logs[j]), at_centre(centre, beyond - logs[j])
