@@ -31,9 +31,12 @@ _FEWEST = 8
 
 @kernel
 def _continues(j, strips):
-    """Return whether strip j begins where the one before ends. Patches beyond the largest number of them share a number."""
+    """Return whether strip j begins where the one before ends. Patches beyond the largest number of them share a number.
+
+    The positions of some methods' strips are not quite their middles. A gap is as wide as a strip.
+    """
     away = strips[Strip.Y, j] - strips[Strip.Y, j - 1]
-    touches = away < 0.50001 * (strips[Strip.DY, j] + strips[Strip.DY, j - 1])
+    touches = away < 0.55 * (strips[Strip.DY, j] + strips[Strip.DY, j - 1])
     return touches and strips[Strip.PATCH, j] == strips[Strip.PATCH, j - 1]
 
 
