@@ -142,9 +142,14 @@ def _parabola(i, at, row, strips):
 
 @kernel
 def _half_length(i, at, squares, strips):
-    """Return the half length at y = `at`: a² is the parabola through the `squares` of strip i and its neighbours [m]."""
-    least = 0.1 * min(squares[i - 1], squares[i], squares[i + 1])
-    return math.sqrt(max(_parabola(i, at, squares, strips), least))
+    """Return the half length at y = `at`: a² is the parabola through the `squares` of strip i and its neighbours [m].
+
+    It is at least .9 of that which is linear between strips, as the parabola falls below 0 where lengths multiply.
+    """
+    k = i if at < strips[Strip.Y, i] else i + 1
+    t = (at - strips[Strip.Y, k - 1]) / (strips[Strip.Y, k] - strips[Strip.Y, k - 1])
+    linear = max((1.0 - t) * squares[k - 1] + t * squares[k], 0.1 * min(squares[k - 1], squares[k]))
+    return math.sqrt(max(_parabola(i, at, squares, strips), 0.9 * linear))
 
 
 @kernel
