@@ -28,7 +28,7 @@ def test_a_peak_between_strips_is_found(at, beyond, before):
 
 
 def test_the_largest_pressure_of_random_patches_hardly_changes_with_more_strips():
-    """Before, the mean of the difference was .0023 on these patches."""
+    """Before strips were divided, the mean of the difference was .0023, and .0006 while the larger of two readings counted."""
     rng, pairs, errors = np.random.default_rng(3), {}, []
     while len(errors) < 60:
         wheel, rail = rng.choice(library.names("wheel")), rng.choice(["60E1", "54E1", "50E2", "49E1"])
@@ -41,6 +41,6 @@ def test_the_largest_pressure_of_random_patches_hardly_changes_with_more_strips(
         )
         if few.gap_error < 0.01 and many.converged:
             errors.append(abs(few.max_pressure / many.max_pressure - 1.0))
-    assert np.mean(errors) < 0.0015
-    assert np.percentile(errors, 95) < 0.005
-    assert np.max(errors) < 0.02
+    assert np.mean(errors) < 0.0005
+    assert np.percentile(errors, 95) < 0.003
+    assert np.max(errors) < 0.006
