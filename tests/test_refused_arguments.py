@@ -16,7 +16,7 @@ from contact.errors import require_integer
 from contact.friction import Friction
 from contact.geometry import conicity, contact_points, profile
 from contact.geometry.surfaces import Flat, Polygon, RailSurface, SurfacePair, Wave, WheelSurface
-from contact.geometry.wheelset import Pair, Pose, Velocity, contacts
+from contact.geometry.wheelset import Irregularity, Pair, Pose, Velocity, contacts
 from contact.halfspace import Gap, LocalLaw, Transient
 from contact.inputs.material import Thermal
 from contact.pair import ContactDamping, FrictionMemory, HalfspacePair, RollerRig, WheelRailPair
@@ -304,6 +304,7 @@ REFUSED: list[tuple[Callable[[], Any], str]] = [
     (lambda: Pair(WHEEL, RAIL, samples=3), "samples = 3"),
     (lambda: Pair(WHEEL, RAIL, samples=[0, 1, 1, 2, 3]), "increasing"),
     (lambda: Pair(WHEEL, RAIL, samples="many"), "samples = 'many'"),
+    (lambda: rolled(irregularity=Irregularity(y=1.0)), r"do not overlap; .*; look at irregularity\.y and offset\.y"),
     (lambda: contacts(WHEEL, RAIL, Pose(y=0.2)), r"pose\.y = 0\.2: the right wheel and rail profiles do not overlap"),
     (lambda: contacts(WHEEL, RAIL, 3e-3), r"pose = 0\.003 is not a contact\.geometry\.wheelset\.Pose"),
     (lambda: contacts(WHEEL, RAIL, Pose(), 20.0, load=1.0), r"velocity = 20\.0 is not a .*Velocity"),

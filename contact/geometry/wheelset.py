@@ -221,6 +221,8 @@ class Pair(Posed):
         wheel, rail = self.space.wheel[Curve.Y] + motion.tape, self.space.rail[Curve.Y] + motion.origin_y
         low, high = sorted((self._mirror * (rail[0] - wheel[-1]), self._mirror * (rail[-1] - wheel[0])))
         other = "" if low < 0.0 < high else f"; {self._widths} hardly belong to one track"
+        if low < pose.y < high:
+            other = "; look at irregularity.y and offset.y"
         return ContactError(
             f"pose.y = {pose.y:g}: the {self.side} wheel and rail profiles do not overlap; "
             f"they do within about ]{low:g}, {high:g}[ m{'; is it in mm?' if abs(pose.y) >= 1.0 else ''}{other}"

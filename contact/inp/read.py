@@ -57,7 +57,7 @@ def read(path: str | os.PathLike[str]) -> list[Case]:
     -----
     PlausibilityWarning
         For digits that a first case changes, and numbers that stand behind the last value of their line: CONTACT takes a
-        decimal comma for a blank, so that all values behind it move by one.
+        decimal comma for a blank, so that all values behind it move by one. For lines behind MODULE 0.
     """
     cases = _Reader(Path(path)).cases()
     if noted := [case for case in cases if case.notes]:
@@ -80,6 +80,10 @@ class _Reader:
             self.group(_MODULE, now, {})
             module = now["MODULE"]
             if module == 0:
+                if left := self.lines.left:
+                    warn(
+                        f"{self.file}, line {self.lines.number}: MODULE 0 ends the file; lines behind it are not read: {left}"
+                    )
                 return found
             if module not in BLOCKS:
                 self.lines.refuse(f"MODULE = {module} is outside the allowed range, {{0, 1, 3}}")

@@ -55,8 +55,12 @@ def angle(word: str) -> float:
 
 
 def integer(word: str) -> int:
-    """Return an integer, which may be written as a real number."""
-    return int(word) if re.fullmatch(r"[+-]?\d{1,18}", word) else int(real(word))
+    """Return an integer, which may be written as a real number like 1.0."""
+    if re.fullmatch(r"[+-]?\d{1,18}", word):
+        return int(word)
+    if (value := real(word)) != int(value):
+        raise ValueError(word)
+    return int(value)
 
 
 def quoted(word: str) -> str:

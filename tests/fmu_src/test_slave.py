@@ -136,6 +136,22 @@ def test_a_step_before_initialisation_is_an_error():
     assert messages(slave, Fmi2Status.error) == ["doStep is not allowed before initialisation; the call is ignored"]
 
 
+def test_reading_before_initialisation_is_an_error():
+    """Outputs are 0 then, which a host would take for an answer; native FMUs refuse it too."""
+    slave = Quotient()
+    slave.get_real([Q1])
+    assert messages(slave, Fmi2Status.error) == [
+        "q[1] cannot be read as Real before initialisation; the call is ignored"
+    ]
+
+
+@pytest.mark.parametrize(("start", "stop"), [(math.nan, None), (math.inf, None), (0.0, math.nan), (1.0, 0.0)])
+def test_a_start_or_a_stop_without_meaning_is_an_error(start, stop):
+    slave = Quotient()
+    slave.setup_experiment(start, stop, None)
+    assert messages(slave, Fmi2Status.error)[0].endswith("allowed: numbers, the stop not before it")
+
+
 def test_no_exception_of_the_model_escapes():
     slave = Quotient()
     slave.set_integer([MODE], [2])

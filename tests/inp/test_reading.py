@@ -181,6 +181,14 @@ def test_numbers_behind_the_last_value_of_a_line_are_told(tmp_path, old, new, sa
     assert len(case.notes) == 1
 
 
+def test_lines_behind_the_end_and_broken_integers_are_told(tmp_path):
+    """A number that is read as 0 where a module is due ends the file: a repeated line has thrown away all cases behind it."""
+    with pytest.warns(PlausibilityWarning, match="line 22: MODULE 0 ends the file; lines behind it are not read: 1"):
+        read(tmp_path, files.CONTACT)
+    with pytest.raises(ContactError, match=r"MODULE = '0\.28' is outside the allowed range, an integer"):
+        read(tmp_path, files.CONTACT.replace(" 3  MODULE", " 0.28 MODULE", 1))
+
+
 def test_every_digit_has_its_meaning_in_both_modules():
     for word in WORDS:
         for digit in word:

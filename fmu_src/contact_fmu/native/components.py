@@ -59,7 +59,7 @@ class OpenFailure(IntEnum):
 
 
 _FAILURES: dict[int, str] = {
-    Failure.NO_OVERLAP: "pose.y: the profiles of wheel and rail do not overlap",
+    Failure.NO_OVERLAP: "pose.y: the profiles of wheel and rail do not overlap, with irregularity and offset",
     Failure.NOT_SETTLED: "load.normal_force: no height was found at which the wheel carries this load on this rail",
     Failure.TOO_DEEP: f"pose.z: the wheel lies more than {DEEPEST:g} m inside its rail",
     Failure.ENDLESS: "the accumulated damage has no finite value for these inputs",

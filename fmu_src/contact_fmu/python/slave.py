@@ -184,7 +184,9 @@ class TableSlave(Fmi2Slave):
     def setup_experiment(self, start_time: float, stop_time: float | None, tolerance: float | None) -> None:
         """Remember start and stop time."""
         if not math.isfinite(start_time) or (stop_time is not None and not stop_time >= start_time):
-            raise _NotAllowed(f"startTime = {start_time:g}, stopTime = {stop_time}: the stop is before the start")
+            raise _NotAllowed(
+                f"startTime = {start_time:g}, stopTime = {stop_time}: allowed: numbers, the stop not before it"
+            )
         self.time = start_time
         self.stop_time = math.inf if stop_time is None else stop_time
 
@@ -334,6 +336,8 @@ class TableSlave(Fmi2Slave):
         if self.lazy_is_stale and not set(references).isdisjoint(self._lazy):
             self._update_lazy()
         readable, kind = self._readable[kinds], float if kinds is _REAL else int
+        if self.phase is Phase.INSTANTIATED:  # there is nothing yet
+            readable = frozenset()
         for reference in references:
             if reference not in readable:
                 self._refuse("read", reference, kinds)

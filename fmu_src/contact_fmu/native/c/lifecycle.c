@@ -190,7 +190,7 @@ Status set_up(Instance *instance, const char *function, double start, bool has_s
 {
     REQUIRE(instance, function, INSTANTIATED);
     if (!isfinite(start) || (has_stop && !(stop >= start)))
-        return report(instance, LOG_ERROR, "startTime = %g, stopTime = %g: the stop is before the start", start, stop);
+        return report(instance, LOG_ERROR, "startTime = %g, stopTime = %g: allowed: numbers, the stop not before it", start, stop);
     instance->is.time = instance->is.accepted_time = start;
     instance->is.stop_time = has_stop ? stop : INFINITY;
     return OK;
