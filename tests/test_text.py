@@ -43,6 +43,7 @@ def test_a_table_of_signals_in_every_writing(encoding, minus, separator, comma, 
         ("a;b\n1,5;2\n3,5;\n", r"line 3: b = '' is not a finite number"),
         ("a,b\n1,2\n3,4,5\n", r"line 3: '3,4,5' has 3 values for 2 names"),
         ("# nothing\n\n", "holds no columns of numbers"),
+        ("# a\ntime,y,y\n1,2,3\n", r"line 2: the name 'y' stands over 2 columns"),
     ],
 )
 def test_a_row_of_signals_that_is_not_understood_is_named_with_its_content(content, said, tmp_path):
@@ -88,6 +89,16 @@ def test_cases_have_semicolons_and_decimal_commas(tmp_path):
         path.write_text("y,load,creepage\n0.001,80000,0.001 0 0.1\n-0.002,9e4,\n")
         plain = cases.read(path, given)
     assert [(case.load, case.creepage) for case in found] == [(case.load, case.creepage) for case in plain]
+
+
+@pytest.mark.parametrize(
+    ("name", "content"),
+    [("cases.csv", "y,load,load\n1e-3,8e4,9e4\n"), ("cases.json", '[{"y": 1e-3, "load": 8e4, "load": 9e4}]')],
+)
+def test_a_name_that_stands_twice_in_a_file_of_cases_is_refused(name, content, tmp_path):
+    (tmp_path / name).write_text(content)
+    with pytest.raises(ContactError, match="the name 'load' stands twice"):
+        cases.read(tmp_path / name, {})
 
 
 def _archive(name):

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import csv
 import json
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import fields
 from pathlib import Path
@@ -115,17 +115,29 @@ def _toml(given: str) -> tuple[dict[str, Any], Sequence[Any]]:
 
 
 def _json(given: str) -> tuple[dict[str, Any], Sequence[Any]]:
-    content = json.loads(given)
+    content = json.loads(given, object_pairs_hook=_once)
     return ({}, content) if isinstance(content, list) else _split(content)
 
 
 def _csv(given: str) -> tuple[dict[str, Any], Sequence[Any]]:
     lines = [line for line in text.plain(given).splitlines() if line.strip() and not line.startswith("#")]
     separator = next((sign for sign in ";\t" if lines and sign in lines[0]), ",")
-    cases = list(csv.DictReader(lines, delimiter=separator))
+    rows = csv.DictReader(lines, delimiter=separator)
+    _once([(name.strip(), "") for name in rows.fieldnames or ()])
+    cases = list(rows)
     if any(None in case or None in case.values() for case in cases):
         raise ValueError("a line has more or fewer cells than names")
     return {}, [{name.strip(): _cell(cell, separator) for name, cell in case.items() if cell.strip()} for case in cases]
+
+
+def _once(pairs: Iterable[tuple[str, Any]]) -> dict[str, Any]:
+    """Return names and values as a table; Python keeps the last of equal names."""
+    made: dict[str, Any] = {}
+    for name, value in pairs:
+        if name and name in made:
+            raise ValueError(f"the name {name!r} stands twice")
+        made[name] = value
+    return made
 
 
 def _cell(cell: str, separator: str) -> str:

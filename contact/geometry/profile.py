@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from inspect import signature
 from os import PathLike
 from pathlib import Path
 from typing import Any
@@ -57,6 +58,7 @@ def load(
         turned = 0.0 if rail_inclination is None else library.angle_of(rail_inclination)
         rotation -= turned
     else:
+        signature(read).bind(name, **options)  # a misspelled option raises, though none but `scale` is for these
         found = named(name, kind=kind, inclination=rail_inclination)
         if (scale := require_number("scale", options.get("scale", 1.0), 0.01, 2.0)) != 1.0:
             found = Profile(kind, scale * found.y, scale * found.z, found.angle, f"{found.name}, scale {scale:g}")

@@ -329,8 +329,8 @@ def table(path: str | PathLike[str], name: str = "path") -> Table:
     Raises
     ------
     ContactError
-        If the file cannot be read, and for a row with other than one number for each name. The message has number and
-        content of the line.
+        If the file cannot be read, for a name that stands twice, and for a row with other than one number for each name. The
+        message has number and content of the line.
     """
     where = f"{name} = {str(path)!r}"
     given = lines_of(path, name, LARGEST_SERIES)
@@ -341,6 +341,9 @@ def table(path: str | PathLike[str], name: str = "path") -> Table:
     dialect = _dialect_of_table(lines[0][1], body[:400])
     head = dialect.cells(lines[0][1])
     names = head if any(number(cell, dialect.comma) is None for cell in head) else []
+    twice = next((name for name in names if name and names.count(name) > 1), "")
+    if twice:
+        raise ContactError(f"{where}, line {lines[0][0]}: the name {twice!r} stands over {names.count(twice)} columns")
     if (quick := _quickly([line for _, line in lines[1 if names else 0 :]], dialect, len(head))) is not None:
         return Table(names, quick)
     rows = []

@@ -128,3 +128,9 @@ def test_names_are_those_of_both_kinds_and_all_can_touch():
             assert shape.kind == kind
             pair = (shape, rail) if kind == "wheel" else (wheel, shape)
             assert -1e-3 < Pair(*pair, gauge_point=0.012).touch(Pose()) < 1e-3
+
+
+def test_an_option_that_no_file_has_is_refused_for_a_standard_profile_too():
+    assert profile.load("60E1", "rail", smoothing=1e-6).y.size == profile.rail_60e1().y.size
+    with pytest.raises(TypeError, match="'smothing'"):
+        profile.load("60E1", "rail", smothing=1e-6)
