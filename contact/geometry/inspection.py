@@ -289,7 +289,7 @@ def tall(points: Points, kind: Kind) -> tuple[str, str, str] | None:
         cure = "are its columns y and z in one unit?"
         return seen, cure, cure
     if NARROWEST <= height <= WIDEST and height > TALLER * width and (kind == "wheel" or width < NARROWEST):
-        cure = "are its columns y and z swapped or in different units, or is it turned by 90°?"
+        cure = "are its columns y and z swapped, or is it turned by 90°?"
         return seen, cure, cure
     return None
 
