@@ -87,11 +87,7 @@ REFUSED = [
         {"load.normal_force": -1e4},
         "load.normal_force = -10000 is outside the allowed range [-1000, inf[",
     ),
-    (
-        pair_case.NAME,
-        {"irregularity.y": 1.0},
-        "the profiles of wheel and rail do not overlap, with irregularity and offset",
-    ),
+    (pair_case.NAME, {"pose.y": 1.0}, "pose.y = 1: the profiles of wheel and rail do not overlap, with irregularity"),
     (pair_case.NAME, {"load.normal_force": 1e12}, "load.normal_force = 1e+12: no height was found"),
 ]
 
