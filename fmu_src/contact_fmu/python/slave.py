@@ -335,12 +335,10 @@ class TableSlave(Fmi2Slave):
             self._update_at_start()
         if self.lazy_is_stale and not set(references).isdisjoint(self._lazy):
             self._update_lazy()
-        readable, kind = self._readable[kinds], float if kinds is _REAL else int
-        if self.phase is Phase.INSTANTIATED:  # there is nothing yet
-            readable = frozenset()
-        for reference in references:
-            if reference not in readable:
-                self._refuse("read", reference, kinds)
+        readable = self._readable[kinds] if self.phase is not Phase.INSTANTIATED else ()  # there is nothing yet
+        kind = float if kinds is _REAL else int
+        for reference in (r for r in references if r not in readable):
+            self._refuse("read", reference, kinds)
         return [kind(self.values[reference]) if reference in readable else 0 for reference in references]
 
     def _set(self, kinds: tuple[Kind, ...], references: list[int], values: list[Any]) -> None:
