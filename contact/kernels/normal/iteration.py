@@ -34,7 +34,7 @@ from contact.kernels.rows import Event, Vector
 TOLERANCE = 1e-4
 #: Limits at which steps by the Jacobian of an ellipse stop: what mixing leaves of the step, over the tolerance, and the
 #: residuals, over its square root.
-LEFT, CLOSE = 4.0, 0.4
+LEFT, CLOSE = 2.0, 0.4
 #: Load-weighted mean change of ln a that counts as converged at the limit of iterations.
 ACCEPTABLE = 1e-3
 #: Iteration from which on skewed strips, up to 20 of a panel, are left at a load-weighted mean residual of CALM, wherever the
@@ -303,7 +303,7 @@ def accept(problem, state):
 
     With the load-weighted mean |r| of half lengths and offsets, the largest move m of an end over its width, and the
     tolerance ε, they are at rest if |r| < ε and m < 2ε. With steps by the Jacobian, whose error is a quarter of r, they are
-    if |r| and m < .4√ε and if the mixing leaves less than 4ε of the step, which is then taken. Skewed strips are left at
+    if |r| and m < .4√ε and if the mixing leaves less than 2ε of the step. The last step is taken. Skewed strips are left at
     |r| < `CALM` from iteration `LATE` on, many of them at |r| < `ACCEPTABLE` with fixed ends. The panel with the largest
     pressure must be at rest by itself.
     """
@@ -322,7 +322,7 @@ def accept(problem, state):
             _stiffen(state)
         elif not _search(problem, state, GHOST):
             state.converged = 1 if exact or settled else 0
-            state.last = 0 if settled and not exact else 1
+            state.last = 0 if exact or settled else 1
             return True
     elif _seeks(problem, state):
         _search(problem, state, GHOST if state.searched != 0 else EARLY_GHOST)

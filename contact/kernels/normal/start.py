@@ -1,5 +1,7 @@
 """Start of the strip half space from the last call: panels, half lengths and offsets that it left in the workspace's memory."""
 
+import math
+
 from contact.core import kernel
 from contact.kernels.records import MAX_PATCHES
 from contact.kernels.rows import Iterate, Vector
@@ -9,6 +11,8 @@ from contact.kernels.rows import Iterate, Vector
 MEM_PANELS, MEM_IMAGE, MEM_ENDS, MEM_START, MEM_LN_A = 0, 1, 2, 2 + 2 * MAX_PATCHES, 4 + 2 * MAX_PATCHES
 #: Shift of ANALYN's patch over its width from which on the panels do not move with it.
 _FURTHEST = 0.02
+#: Ratio of the widths of ANALYN's patches up to which a single panel grows with them.
+_WIDEST = 1.25
 #: Iterations in which a warm start has to come to rest. From iteration `_SOON` on no end may move by more than `_STIRS` of the
 #: width, unless that is less than `_FALLS` of what it was two iterations before. Otherwise the start is ANALYN's solution.
 WARM, _SOON, _STIRS, _FALLS = 8, 3, 3e-3, 0.7
@@ -33,20 +37,25 @@ def recall(sep, n, low, high, workspace):
     """Fill half lengths, offsets and active set from the memory. Return the ends of the panels, a view of it, and their number.
 
     The number is 0 if the memory is empty or belongs to another position. `low` and `high` are the outer ends of ANALYN's
-    patches; the panels move with them.
+    patches; the panels move with them, and a single one grows with them.
     """
     y, memory, vectors = sep.y, workspace.space.memory, workspace.space.vectors
     panels = memory[MEM_ENDS : MEM_ENDS + 2 * MAX_PATCHES]
     n_panels = int(memory[MEM_PANELS])
-    shift = 0.5 * (low + high - memory[MEM_START] - memory[MEM_START + 1]) if n_panels > 0 else 0.0
+    start, end = memory[MEM_START], memory[MEM_START + 1]
+    shift = 0.5 * (low + high - start - end) if n_panels > 0 else 0.0
     shift = shift if abs(shift) < _FURTHEST * (high - low) else 0.0
+    wider = (high - low) / (end - start) if n_panels == 1 and end > start else 1.0
+    wider = wider if 1.0 / _WIDEST < wider < _WIDEST else 1.0
+    middle, longer = 0.5 * (start + end), math.log(wider)  # half lengths grow as the width does
     for p in range(n_panels):
-        panels[2 * p] = max(panels[2 * p] + shift, y[0])
-        panels[2 * p + 1] = min(panels[2 * p + 1] + shift, y[y.size - 1])
+        panels[2 * p] = max(middle + wider * (panels[2 * p] - middle) + shift, y[0])
+        panels[2 * p + 1] = min(middle + wider * (panels[2 * p + 1] - middle) + shift, y[y.size - 1])
         if not panels[2 * p] < panels[2 * p + 1]:
             return panels, 0
     for i in range(n_panels * n):
-        vectors[Vector.LN_A, i], vectors[Vector.OFFSET, i] = memory[MEM_LN_A + 2 * i], memory[MEM_LN_A + 2 * i + 1]
+        vectors[Vector.LN_A, i] = memory[MEM_LN_A + 2 * i] + longer
+        vectors[Vector.OFFSET, i] = memory[MEM_LN_A + 2 * i + 1]
         vectors[Vector.ACTIVE, i] = vectors[Vector.P, i] = 1.0
     return panels, n_panels
 
