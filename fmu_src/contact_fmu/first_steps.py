@@ -87,7 +87,7 @@ FIRST: dict[str, First] = {
         (
             Example(
                 {},
-                {"wheel.Q": 8.008e4, "wheel.Y": 485.9, "force.x": -204.4, "wheelset.z": 2.466e-4},
+                {"wheel.Q": 8.008e4, "wheel.Y": 485.9, "force.x": -204.5, "wheelset.z": 2.466e-4},
                 "the start values",
             ),
             Example(
@@ -105,7 +105,7 @@ FIRST: dict[str, First] = {
         (
             Example(
                 {},
-                {"wheel.Q": 8.008e4, "wheel.Y": 485.6, "force.x": -206.1, "wheelset.z": 2.466e-4},
+                {"wheel.Q": 8.008e4, "wheel.Y": 485.6, "force.x": -206.3, "wheelset.z": 2.466e-4},
                 "the start values",
             ),
             Example({"pose.y": 5e-3}, {"wheel.Q": 8.084e4, "wheel.Y": 5593.0, "force.x": 2.102e4}, "5 mm to the right"),
