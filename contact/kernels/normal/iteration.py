@@ -303,9 +303,9 @@ def accept(problem, state):
 
     With the load-weighted mean |r| of half lengths and offsets, the largest move m of an end over its width, and the
     tolerance ε, they are at rest if |r| < ε and m < 2ε. With steps by the Jacobian, whose error is a quarter of r, they are
-    if |r| and m < .4√ε and if the mixing leaves less than 2ε of the step. The last step is taken. Skewed strips are left at
-    |r| < `CALM` from iteration `LATE` on, many of them at |r| < `ACCEPTABLE` with fixed ends. The panel with the largest
-    pressure must be at rest by itself.
+    if |r| and m < .4√ε and if the mixing leaves less than 2ε of the step. The last step is taken, but for a start that is at
+    rest: a call that is repeated has the same bits. Skewed strips are left at |r| < `CALM` from iteration `LATE` on, many of
+    them at |r| < `ACCEPTABLE` with fixed ends. The panel with the largest pressure must be at rest by itself.
     """
     age, error, moved, tolerance = state.number - state.begun, state.error, state.moved, problem.tolerance
     close = CLOSE * math.sqrt(tolerance)
@@ -322,7 +322,7 @@ def accept(problem, state):
             _stiffen(state)
         elif not _search(problem, state, GHOST):
             state.converged = 1 if exact or settled else 0
-            state.last = 0 if exact or settled else 1
+            state.last = 1 if state.converged == 0 or (exact and age == 0) else 0
             return True
     elif _seeks(problem, state):
         _search(problem, state, GHOST if state.searched != 0 else EARLY_GHOST)

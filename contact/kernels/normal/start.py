@@ -49,8 +49,9 @@ def recall(sep, n, low, high, workspace):
     wider = wider if 1.0 / _WIDEST < wider < _WIDEST else 1.0
     middle, longer = 0.5 * (start + end), math.log(wider)  # half lengths grow as the width does
     for p in range(n_panels):
-        panels[2 * p] = max(middle + wider * (panels[2 * p] - middle) + shift, y[0])
-        panels[2 * p + 1] = min(middle + wider * (panels[2 * p + 1] - middle) + shift, y[y.size - 1])
+        low_end, high_end = panels[2 * p], panels[2 * p + 1]  # the same bits where nothing moves or grows
+        panels[2 * p] = max(low_end + (wider - 1.0) * (low_end - middle) + shift, y[0])
+        panels[2 * p + 1] = min(high_end + (wider - 1.0) * (high_end - middle) + shift, y[y.size - 1])
         if not panels[2 * p] < panels[2 * p + 1]:
             return panels, 0
     for i in range(n_panels * n):
