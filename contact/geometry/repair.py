@@ -174,6 +174,8 @@ def _to_the_corner(side: Points, inwards: float) -> int:
 
 def _refined(points: Points, spacing: float) -> Points:
     """Return the points with others between them on the lines that join them, at most `spacing` apart."""
+    apart = np.append(True, np.diff(points, axis=0).any(axis=1))  # interpolation divides by what is between two
+    points = points[apart]
     length = np.hypot(*np.diff(points, axis=0).T)
     along = np.concatenate(([0.0], np.cumsum(length)))
     count = min(int(along[-1] / spacing) + 2, 20_000)
