@@ -78,15 +78,15 @@ def test_columns_of_approach_and_load(normal):
     assert scaled(loaded.jacobian.values[:, 3] - by_load, by_load) < 3e-5
 
 
-@pytest.mark.parametrize("side", ["right", "left"])
+#: Tread, and flange root under yaw.
+@pytest.mark.parametrize(("side", "y", "yaw"), [("right", 3e-3, 2e-3), ("left", -6.2e-3, -8e-3)])
 @pytest.mark.parametrize("normal", ["analyn", "hertz", "kik_piotrowski", "linder", "semi_winkler", "strip_halfspace"])
-def test_all_columns_of_a_pair(normal, side):
+def test_all_columns_of_a_pair(normal, side, y, yaw):
     """The whole kernel runs on dual numbers: search, frames, creepages, strips and tractions."""
     profiles = profile.s1002(), profile.rail_60e1(inclination=1 / 40)
     pair = WheelRailPair(Pair(*profiles, side=side), normal=normal, n_strips=10, n_elements=10)
     pair.arrays.case["tolerance"] = 1e-11
-    pose = Pose(y=3e-3 if side == "right" else -3e-3, yaw=2e-3, roll=1e-3)
-    velocity = Velocity(20.0, y=0.01, yaw=3e-3, spin=-20.01 / 0.46)
+    pose, velocity = Pose(y=y, yaw=yaw, roll=1e-3), Velocity(20.0, y=0.01, yaw=3e-3, spin=-20.01 / 0.46)
     pose = dataclasses.replace(pose, z=pair.solve(pose, velocity, load=LOAD).z)
     pair.forget()
     found = pair.solve(pose, velocity, derivatives=True)
@@ -100,7 +100,7 @@ def test_all_columns_of_a_pair(normal, side):
         np.testing.assert_allclose([value(total.Fx), value(total.Fy), value(total.Fz)], found.force, rtol=1e-8)
         wanted = np.array([slope(getattr(total, name)) for name in WRENCH])
         error = np.abs(found.jacobian.values[:6, column] - wanted).max() / np.abs(wanted).max()
-        assert error < (5e-5 if member in ("y", "z", "roll", "yaw") or member.startswith("rail") else 1e-5), member
+        assert error < (2e-4 if member in ("y", "z", "roll", "yaw") or member.startswith("rail") else 1e-5), member
 
 
 def test_a_dual_number_does_not_lose_its_derivative_in_silence():

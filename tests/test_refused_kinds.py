@@ -1,4 +1,4 @@
-"""Arguments of a wrong kind are refused by name, as values without meaning are (`test_refused_arguments.py`)."""
+"""Arguments of a wrong kind are refused by name, and those of pairs without meaning, beside `test_refused_arguments.py`."""
 
 from collections.abc import Callable
 from typing import Any
@@ -10,13 +10,17 @@ import contact
 from contact.geometry import profile
 from contact.geometry.flexible import WheelOffset
 from contact.geometry.surfaces import SurfacePair
-from contact.geometry.wheelset import Pair, Pose, Velocity
-from contact.pair import HalfspacePair, RollerRig, WheelRailPair
+from contact.geometry.wheelset import Irregularity, Pair, Pose, Velocity
+from contact.pair import HalfspacePair, RollerRig, WheelRailPair, over_poses
 from tests.doors import CREEPAGE, ELLIPSE, PAIR, RAIL, WHEEL, rolled, solve, steel
 
 
 def on_elements(velocity=None, **given):
     return HalfspacePair(SurfacePair(WHEEL, RAIL)).solve(Pose(), velocity, **{"load": 8e4, **given})
+
+
+def on_profiles_that_may_change(pose=None, **given):
+    return WheelRailPair(SurfacePair(WHEEL, RAIL), normal="analyn").solve(pose or Pose(), **{"load": None, **given})
 
 
 def driven(motion, **given):
@@ -54,6 +58,24 @@ REFUSED: list[tuple[Callable[[], Any], str]] = [
     (
         lambda: on_elements(irregularity="x"),
         "irregularity = 'x' is not a contact",
+    ),
+    (lambda: on_profiles_that_may_change(Pose(z=0.1)), "inside its rail"),
+    (lambda: on_profiles_that_may_change(irregularity=Irregularity(z=-1e300)), "does not lie above its rail"),
+    (lambda: on_profiles_that_may_change(irregularity=Irregularity(y=1e300)), "does not lie above its rail"),
+    (
+        lambda: WheelRailPair(PAIR).solve(Pose(), Velocity(-1.0), load=8e4, torque=1e3),
+        "forward = -1 is",
+    ),
+    (lambda: over_poses(PAIR), "WheelRailPair"),
+    *(
+        (lambda given=given: over_poses(WheelRailPair(PAIR), **given), message)
+        for given, message in (
+            ({"load": -1.0}, "load = -1"),
+            ({"yaw": [0.0, 0.2]}, r"yaw\[1\] = 0\.2"),
+            ({"load": 1e3, "penetration": 1e-4}, "exclude"),
+            ({"y": np.zeros(3), "yaw": np.zeros(2)}, "do not broadcast"),
+            ({"speed": 0.0}, "speed = 0"),
+        )
     ),
     (lambda: driven([1.0]), r"motion = \[1.0\] is not a collections.abc.Mapping"),
     (lambda: driven({"time": [0.0, 1.0]}, memory="x"), "memory = 'x' is not a contact.pair"),

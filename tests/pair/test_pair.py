@@ -11,8 +11,9 @@ from contact import Status
 from contact.damage import evaluate
 from contact.friction import Friction
 from contact.geometry.flexible import WheelOffset
+from contact.geometry.surfaces import SurfacePair
 from contact.geometry.wheelset import Irregularity, Pair, Pose, Velocity
-from contact.pair import ElasticRail, WheelRailPair
+from contact.pair import ElasticRail, HalfspacePair, WheelRailPair
 from tests.pair.made import R0, RAIL, WHEEL, WORN, make, random_motion
 
 METHODS = contact.methods().batched
@@ -203,7 +204,8 @@ def test_a_displaced_rail_is_a_wheelset_displaced_the_other_way(right, how):
 
 
 def test_lift_off_is_a_valid_result(right):
-    for s in (right.solve(Pose(z=-1e-3)), right.solve(Pose(y=1e-3), load=0.0)):
+    of_elements = HalfspacePair(SurfacePair(WHEEL, RAIL)).solve(Pose(z=-1e-4))
+    for s in (right.solve(Pose(z=-1e-3)), right.solve(Pose(y=1e-3), load=0.0), of_elements):
         assert s.status is Status.NO_CONTACT
         assert not s.force.any()
         assert not s.moment.any()

@@ -77,12 +77,6 @@ def rolling(pair, pose):
     )
 
 
-def test_on_the_flange_root_under_yaw(right):
-    """Of every kind of columns one; `test_dual_numbers.py` has all of them on the tread."""
-    names = [("pose.y", 2e-8), *POSES[1:], ("velocity.yaw", 1e-7), ("irregularity.y_rate", 1e-7), ("friction", 1e-7)]
-    compare(right, rolling(right, Pose(y=6.2e-3, yaw=8e-3)), {"friction": 0.3}, names, 5e-3)
-
-
 def test_two_patches_add_up():
     pair = made(inclination=1 / 20, combine_distance=1e-3, combine_angle=0.01)
     given = rolling(pair, Pose(y=6.0e-3, yaw=2e-3))

@@ -12,7 +12,7 @@ from contact.geometry.surfaces import Flat, Polygon, SurfacePair, WheelSurface
 from contact.geometry.wheelset import Pose, Velocity
 from contact.pair import HalfspacePair
 from examples.crossing import crossing
-from tests.pair.surfaces import FREE, R0, RAIL, WHEEL, crest
+from tests.pair.surfaces import FREE, R0, RAIL, WHEEL
 
 #: Angle of the wheel [deg], height [mm], forces on the rail [N] in track axes, largest pressure [MPa], place x, y [mm]:
 #: CONTACT 25.1 (rev 2707), sweeps hav05 (80 kN on a haversine flat of 0.5 × 60 mm) and poly12 (12th order, .2 mm, at z).
@@ -109,42 +109,6 @@ def test_in_a_transition_forces_are_the_mean_by_shares():
     assert between.power_per_metre == pytest.approx(
         share * apart.power_per_metre + (1.0 - share) * joint.power_per_metre, rel=1e-3
     )
-
-
-@pytest.mark.slow
-def test_on_a_ramp_the_tilted_frame_pushes_back_along_the_track():
-    """Without friction and with the frame along the normal, the force is normal to the ramp."""
-    rate = 0.1
-    cylinder = profile.cone(0.0)
-    options = {"rail_origin": (0.75, 0.0), "rows": 30, "columns": 30}
-    tilted = HalfspacePair(SurfacePair(cylinder, crest(rate), tilted=True, **options))
-    found = tilted.solve(Pose(), FREE, load=3e4, friction=0.0)
-    assert pytest.approx(3e4, rel=2e-4) == found.Q
-    assert found.force[0] / found.force[2] == pytest.approx(rate, abs=2e-4)
-    about_x = HalfspacePair(SurfacePair(cylinder, crest(rate), **options)).solve(Pose(), FREE, load=3e4, friction=0.0)
-    assert about_x.force[0] == 0.0
-    # about the axle a frictionless wheel of revolution has no moment
-    assert abs(found.moment[1]) < 1e-3 * 3e4 * R0
-    assert abs(about_x.moment[1]) == pytest.approx(rate / math.hypot(1.0, rate) * R0 * 3e4, rel=1e-2)
-
-
-def test_left_is_the_mirror_image_of_right():
-    wheel = WheelSurface.constant(WHEEL, Flat(0.05))
-    right, left = (
-        HalfspacePair(SurfacePair(wheel, RAIL, side=side, rows=20, columns=20)) for side in ("right", "left")
-    )
-    a = right.solve(Pose(y=2e-3, yaw=3e-3), Velocity(20.0, 0.02), rotation=0.03, penetration=1e-4)
-    b = left.solve(Pose(y=-2e-3, yaw=-3e-3), Velocity(20.0, -0.02), rotation=0.03, penetration=1e-4)
-    assert b.force == pytest.approx(a.force * [1.0, -1.0, 1.0], rel=1e-9)
-    assert b.moment == pytest.approx(a.moment * [-1.0, 1.0, -1.0], rel=1e-7)
-    assert pytest.approx(a.Y, rel=1e-9) == b.Y
-
-
-def test_without_contact_there_is_no_force():
-    found = HalfspacePair(SurfacePair(WHEEL, RAIL)).solve(Pose(z=-1e-4))
-    assert found.status is Status.NO_CONTACT
-    assert not found.force.any()
-    assert (found.max_pressure, found.power_per_metre) == (0.0, 0)
 
 
 def test_the_half_space_pair_doubts_what_strips_doubt():

@@ -2,11 +2,13 @@
 
 import math
 import warnings
+from dataclasses import replace
+from functools import partial
 
 import numpy as np
 import pytest
 
-from contact import ContactError, Status
+from contact import Status
 from contact.errors import ModelWarning
 from contact.geometry import profile
 from contact.geometry.flexible import WheelOffset
@@ -34,7 +36,8 @@ def test_strips_agree_with_the_half_space_where_the_surface_is_smooth():
     assert quick.z == pytest.approx(slow.z, abs=1e-7)
     assert quick.force == pytest.approx(slow.force, abs=0.01 * 8e4)
     assert quick.moment == pytest.approx(slow.moment, abs=0.01 * 8e4)
-    assert quick.max_pressure == pytest.approx(slow.max_pressure, rel=0.05)
+    for name, within in (("max_pressure", 0.05), ("area", 0.15), ("used_friction", 0.05)):
+        assert getattr(quick, name) == pytest.approx(getattr(slow, name), rel=within), name
 
 
 def test_the_gap_error_tells_where_a_strip_is_no_parabola():
@@ -93,15 +96,19 @@ def test_constant_profiles_as_surfaces_give_the_solution_of_the_pair(pose, given
         assert (*a.on_rail, *a.on_wheel) == pytest.approx((*b.on_rail, *b.on_wheel), abs=5e-5)
 
 
-def test_strips_of_the_left_side_are_the_mirror_image():
+@pytest.mark.parametrize(
+    ("solver", "given", "within"),
+    [(partial(WheelRailPair, **METHODS), {"load": 6e4}, 0.0), (HalfspacePair, {"penetration": 1e-4}, 1e-7)],
+)
+def test_the_left_side_is_the_mirror_image(solver, given, within):
     wheel = WheelSurface.constant(WHEEL, Flat(0.05))
-    right, left = (WheelRailPair(SurfacePair(wheel, RAIL, side=side), **METHODS) for side in ("right", "left"))
+    right, left = (solver(SurfacePair(wheel, RAIL, side=side, rows=20, columns=20)) for side in ("right", "left"))
     irregular, across = Irregularity(1e-4, -2e-4, 1e-3, 0.01), Irregularity(-1e-4, -2e-4, -1e-3, -0.01)
-    a = right.solve(Pose(y=2e-3, yaw=3e-3), FREE, rotation=0.03, load=6e4, irregularity=irregular)
-    b = left.solve(Pose(y=-2e-3, yaw=-3e-3), FREE, rotation=0.03, load=6e4, irregularity=across)
-    assert np.array_equal(b.force, a.force * [1.0, -1.0, 1.0])
-    assert np.array_equal(b.moment, a.moment * [-1.0, 1.0, -1.0])
-    assert (a.z, a.Y) == (b.z, b.Y)
+    a = right.solve(Pose(y=2e-3, yaw=3e-3), replace(FREE, y=0.002), rotation=0.03, irregularity=irregular, **given)
+    b = left.solve(Pose(y=-2e-3, yaw=-3e-3), replace(FREE, y=-0.002), rotation=0.03, irregularity=across, **given)
+    assert b.force == pytest.approx(a.force * [1.0, -1.0, 1.0], rel=within, abs=0.0)
+    assert b.moment == pytest.approx(a.moment * [-1.0, 1.0, -1.0], rel=within, abs=0.0)
+    assert (a.z, a.Y) == pytest.approx((b.z, b.Y), rel=within, abs=0.0)
 
 
 def test_a_repeated_call_gives_the_same_bits_whatever_was_solved_between():
@@ -144,17 +151,21 @@ def test_a_flat_is_passed_without_a_jump():
     assert steps[1] < 0.5 * steps[0]
 
 
-def test_on_a_ramp_strips_in_the_tilted_frame_push_back_along_the_track():
-    rate, cylinder = 0.1, profile.cone(0.0)
-    tilted, flat = (
-        WheelRailPair(SurfacePair(cylinder, crest(rate), tilted=t, rail_origin=(0.75, 0.0)), **METHODS)
-        for t in (True, False)
-    )
+@pytest.mark.slow
+@pytest.mark.parametrize(("solver", "within"), [(partial(WheelRailPair, **METHODS), 2e-3), (HalfspacePair, 1e-3)])
+def test_on_a_ramp_the_tilted_frame_pushes_back_along_the_track(solver, within):
+    """Without friction and with the frame along the normal, the force is normal to the ramp."""
+    rate, options = 0.1, {"rail_origin": (0.75, 0.0), "rows": 30, "columns": 30}
+    tilted, about_x = (solver(SurfacePair(profile.cone(0.0), crest(rate), tilted=t, **options)) for t in (True, False))
     found = tilted.solve(Pose(), FREE, vertical=3e4, friction=0.0)
+    assert pytest.approx(3e4, rel=2e-4) == found.Q
     assert found.force[0] / found.force[2] == pytest.approx(rate, abs=2e-4)
-    assert abs(found.moment[1]) < 2e-3 * 3e4 * R0  # a frictionless wheel of revolution has no moment about its axle
+    assert abs(found.moment[1]) < within * 3e4 * R0  # a frictionless wheel of revolution has no moment about its axle
     assert found.contacts[0].pitch == pytest.approx(math.atan(rate), abs=2e-4)
-    assert flat.solve(Pose(), FREE, load=3e4, friction=0.0).force[0] == 0.0
+    level = about_x.solve(Pose(), FREE, load=3e4, friction=0.0)
+    assert level.force[0] == 0.0
+    if solver is HalfspacePair:
+        assert abs(level.moment[1]) == pytest.approx(rate / math.hypot(1.0, rate) * R0 * 3e4, rel=1e-2)
 
 
 @pytest.mark.slow
@@ -179,24 +190,6 @@ def test_a_wave_of_the_rail_is_followed_at_any_station():
         z = solver.solve(Pose(), FREE, station=station, penetration=5e-5).z
         height = R0 - np.sqrt(R0**2 - x**2) + wave.at(station + x)[0]
         assert z - 5e-5 == pytest.approx(height.min(), abs=2e-8)
-
-
-@pytest.mark.parametrize(
-    ("call", "message"),
-    [
-        (lambda p: p.solve(Pose(y=0.5), load=1e4), "does not lie above its rail"),
-        (lambda p: p.solve(Pose(z=0.1)), "inside its rail"),
-        (lambda p: p.solve(Pose(), irregularity=Irregularity(z=-1e300), load=1e4), "does not lie above its rail"),
-        (lambda p: p.solve(Pose(), irregularity=Irregularity(y=1e300), load=1e4), "does not lie above its rail"),
-        (lambda p: p.solve(Pose(), station=math.nan), "station = nan"),
-        (lambda p: p.solve(Pose(), rotation=math.inf), "rotation = inf"),
-        (lambda p: p.solve(Pose(), load=1e9), "no z was found"),
-    ],
-)
-def test_bad_input_on_surfaces_is_refused_by_name(call, message):
-    pair = WheelRailPair(SurfacePair(WheelSurface.constant(WHEEL, Flat(0.05)), RAIL), normal="analyn")
-    with pytest.raises(ContactError, match=message):
-        call(pair)
 
 
 @pytest.mark.parametrize("station", [0.187, 0.189, 0.19, 0.207, 0.263])

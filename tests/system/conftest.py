@@ -1,6 +1,5 @@
 """FMUs as a user gets them: built by the command and driven by fmpy."""
 
-import itertools
 import os
 import re
 import shutil
@@ -201,12 +200,13 @@ def native_pair(native, unzipped, freed):
 
 
 @pytest.fixture
-def open_fmu(fmus, tmp_path, freed):
-    """Return a function that instantiates an FMU by name."""
-    number = itertools.count()
+def open_fmu(fmus, unzipped, freed):
+    """Return a function that instantiates an FMU for hosts with Python by name, or that of another file."""
+    return lambda name, path=None: freed(Instance(unzipped(path or fmus / f"{name}.fmu")))
 
-    def open_fmu(name: str, folder: str = "", path: Path | None = None) -> Instance:
-        directory = tmp_path / folder / f"{name}-{next(number)}"
-        return freed(Instance(fmpy.extract(str(path or fmus / f"{name}.fmu"), str(directory))))
 
-    return open_fmu
+@pytest.fixture(params=["python", "native"])
+def opened(request, fmus, native, unzipped, freed):
+    """Return a function that instantiates an FMU by name in each packaging."""
+    folder = fmus if request.param == "python" else native.parent
+    return lambda name: freed(Instance(unzipped(folder / f"{name}.fmu")))

@@ -10,7 +10,7 @@ import pytest
 import wheelset_case
 from contact_case import CREEPAGES, NAME, posed
 from contact_case_fmi3 import pose
-from fmu_instance import DISCARD, WARNING, Instance, goes_on, recovers, refused
+from fmu_instance import DISCARD, ERROR, WARNING, Instance, goes_on, recovers, refused
 from thesis_case import THESIS
 
 import contact
@@ -42,24 +42,11 @@ def trajectory(fmu, start: int) -> list[dict[str, float]]:
     return rows
 
 
-@pytest.fixture(params=["python", "native"])
-def packaging(request) -> str:
-    return request.param
-
-
-@pytest.fixture
-def opened(packaging, open_fmu, native, unzipped, freed):
-    """Return a function that instantiates an FMU by name in each packaging."""
-    if packaging == "python":
-        return open_fmu
-    return lambda name: freed(Instance(unzipped(native.with_name(f"{name}.fmu"))))
-
-
 @pytest.fixture(params=[NAME, "Wheelset", pair_case.NAME, "FMI 3.0"])
-def kind(request, packaging, opened):
+def kind(request, opened):
     """Return each of the FMUs as a `Kind`. The strips of the pair interact, so each step starts from the last one."""
     of_fmi_3 = request.param == "FMI 3.0"
-    if of_fmi_3 and packaging == "python":
+    if of_fmi_3 and request.node.callspec.params["opened"] == "python":
         pytest.skip("FMUs for hosts with Python are of FMI 2.0")
     make = request.getfixturevalue("open_native_fmi3") if of_fmi_3 else partial(opened, request.param)
     if request.param == pair_case.NAME:
@@ -173,3 +160,27 @@ def test_reset_restores_every_start(kind):
     kind.drive(fmu.initialize(), 0)
     fmu.fmu.reset()
     assert fmu.initialize().all("input", "output", "parameter") == wanted
+
+
+def test_an_invalid_step_is_an_error_and_changes_nothing(opened):
+    fmu = prepared(opened(NAME)).initialize(stop_time=1.0)
+    for time, h in ((0.0, 0.0), (0.0, math.nan), (0.0, 1.1), (1e-3, 1e-3), (-1e-3, 1e-3), (1e-300, 1e300)):
+        fmu.log.clear()
+        refused(partial(fmu.step, time, h), ERROR)
+        assert fmu.log[0][0] == ERROR
+    fmu.step(0.0, 1.0 + 1e-12)
+
+
+def test_a_step_is_not_done_twice(opened):
+    """Totals would count it twice. After a saved state is restored, steps continue from its time."""
+    fmu = prepared(opened(NAME)).initialize(stop_time=1.0)
+    fmu.step(0.0, 1e-3)
+    state = fmu.fmu.getFMUstate()
+    fmu.step(1e-3, 1e-3)
+    for time in (0.0, 1e-3, 3e-3):
+        refused(partial(fmu.step, time, 1e-3), ERROR)
+    energy = fmu["total.energy"]
+    fmu.fmu.setFMUstate(state)
+    fmu.step(1e-3 * (1.0 + 1e-12), 1e-3)
+    assert fmu["total.energy"] == energy
+    fmu.fmu.freeFMUstate(state)

@@ -13,7 +13,7 @@ from contact.errors import ContactError
 from contact_models.vehicle import linear
 from contact_models.vehicle.coupling import OpenVehicle
 from contact_models.vehicle.declared import SIDES
-from contact_models.vehicle.kernels.layout import Axis, Book
+from contact_models.vehicle.kernels.layout import Axis
 from contact_models.wheelset import master
 from contact_models.wheelset.fmu import Fmu, FmuVehicle, InFmu
 from contact_models.wheelset.system import at_start, python_contacts, scenario, simulation
@@ -21,15 +21,6 @@ from reference.linear_wheelset import LinearWheelset
 from tests.models.rolling import HALF_BASE, RADIUS, RAIL_RADIUS, on_cones
 
 WHEELSET = 1  # number of the body
-
-
-def run(given, lateral: float, step: float, duration: float) -> np.ndarray:
-    """Return time [s] and lateral position [m] of a run in one kernel, columns."""
-    whole, rows = simulation(given, lateral), []
-    for _ in range(round(duration / step)):
-        rows.append((whole.time, whole.state.q[WHEELSET, Axis.Y]))
-        whole.advance(step)
-    return np.array(rows).T
 
 
 def coupled(given, lateral: float, step: float, duration: float, **options) -> master.History:
@@ -43,16 +34,6 @@ def amplitude(time: np.ndarray, y: np.ndarray, start: float, end: float) -> floa
 
 
 # Klingel's motion
-
-
-@pytest.mark.parametrize(("conicity", "speed"), [(0.025, 10.0), (0.05, 20.0)])
-def test_wavelength_on_cones_is_klingels(conicity, speed):
-    expected = 2.0 * math.pi * math.sqrt(RADIUS * HALF_BASE / conicity)
-    time, y = run(on_cones(conicity, speed, free=True), 1e-3, 2e-4, 0.85 * expected / speed)
-    k = np.flatnonzero(np.diff(np.sign(y)))
-    crossings = speed * (time[k] - y[k] * (time[k + 1] - time[k]) / (y[k + 1] - y[k]))
-    assert crossings.size == 2
-    assert 2.0 * (crossings[1] - crossings[0]) == pytest.approx(expected, rel=0.02)
 
 
 # Stability
@@ -101,23 +82,6 @@ def test_critical_speed_of_cones_is_that_of_the_linear_theory():
     assert found == pytest.approx(theory.critical_speed, rel=0.1)
 
 
-def critical() -> float:
-    return linear.critical_speed(lambda speed: simulation(scenario(speed), lateral=0.0))
-
-
-def test_offset_decays_below_the_critical_speed():
-    """S1002 on 60E1."""
-    assert critical() > 18.0
-    time, y = run(scenario(18.0), 3e-3, 2e-4, 2.5)
-    assert amplitude(time, y, 2.0, 2.5) < 0.6 * amplitude(time, y, 0.0, 0.5)
-
-
-def test_small_offset_grows_above_the_critical_speed():
-    assert critical() < 30.0
-    time, y = run(scenario(30.0), 1e-3, 2e-4, 2.0)
-    assert amplitude(time, y, 1.5, 2.0) > 1.1 * amplitude(time, y, 0.0, 0.5)
-
-
 @pytest.fixture(scope="module")
 def hunting() -> master.History:
     """S1002 on 60E1 above the critical speed, as Python objects."""
@@ -148,14 +112,6 @@ def test_friction_takes_the_energy_that_leaves_wheelset_and_rails(hunting):
     # the power of the slip fields of the contacts is that of forces and creepages
     assert float(hunting.friction_power.sum() * hunting.step) == pytest.approx(dissipated, rel=0.02)
     assert (hunting.friction_power >= 0.0).all()
-
-
-def test_on_cones_the_energy_balance_is_exact_but_for_the_step():
-    whole = simulation(on_cones(0.05, 40.0), 4e-3)
-    whole.advance(1e-4, 6000)
-    books = whole.state.books
-    assert books[Book.DISSIPATED] > 0.2
-    assert abs(books[Book.RESIDUAL]) < 0.02 * books[Book.DISSIPATED]
 
 
 # Order of the coupling

@@ -16,13 +16,6 @@ PAIR = [
 ]
 
 
-@pytest.fixture(params=["python", "native"])
-def opened(request, fmus, native, open_fmu):
-    """Return a function that instantiates an FMU of each packaging."""
-    folder = fmus if request.param == "python" else native.parent
-    return lambda name: open_fmu(name, path=folder / f"{name}.fmu")
-
-
 def warned(instance: Instance) -> list[str]:
     return [text for status, text in instance.log if status == WARNING and " = " in text]
 

@@ -26,15 +26,12 @@ CHOICES = [
 ]
 
 
-@pytest.fixture(params=["native", "python"])
-def make(request, native, unzipped, open_fmu, freed):
+@pytest.fixture
+def make(opened):
     """Return a function that instantiates an FMU by name, with parameters, before its initialisation."""
 
     def make(name: str, parameters: dict | None = None) -> Instance:
-        if request.param == "native":
-            made = freed(Instance(unzipped(native.with_name(f"{name}.fmu"))))
-        else:
-            made = open_fmu(name)
+        made = opened(name)
         made.update(parameters or {})
         return made
 

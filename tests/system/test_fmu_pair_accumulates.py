@@ -3,8 +3,6 @@
 import numpy as np
 import pytest
 from fmu_instance import discarded
-from fmu_instance_fmi3 import Instance3
-from pair_case import NAME
 from thesis_case import THESIS
 
 import contact
@@ -89,22 +87,3 @@ def test_bins_stay_zero_when_nothing_accumulates(open_pair):
     fmu.initialize().step()
     assert not everything(fmu).any()
     assert fmu["total.T_gamma"] > 0.0
-
-
-@pytest.fixture
-def open_pair_fmi3(native_fmi3, unzipped, freed):
-    """Return a function that instantiates the native FMU of FMI 3.0."""
-    folder = unzipped(native_fmi3.with_name(f"{NAME}.fmu"))
-    return lambda kind="CoSimulation": freed(Instance3(folder, kind=kind))
-
-
-def test_arrays_of_fmi3_are_the_bins(open_pair_fmi3, native_pair):
-    two, three = native_pair(), open_pair_fmi3()
-    for fmu in (two, three):
-        fmu.update({**ROLLING, **ON})
-        rolled(fmu.initialize())
-    for body in BODIES:
-        for quantity in SUMS | MAXIMA:
-            array = three[f"accumulated.{body}.{quantity}"]
-            assert array.shape == (BINS,)
-            np.testing.assert_array_equal(array, bins(two, body, quantity))

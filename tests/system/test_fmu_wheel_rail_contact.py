@@ -7,9 +7,8 @@ import sys
 from pathlib import Path
 
 import fmpy
-import numpy as np
 import pytest
-from contact_case import CREEPAGES, NAME, posed
+from contact_case import NAME
 from fmu_instance import ERROR, Instance
 
 from contact_fmu.catalogue import models
@@ -20,37 +19,10 @@ from contact_fmu.python.packaging import (
 ROOT = Path(__file__).parents[2]
 
 
-@pytest.fixture
-def fmu(open_fmu):
-    """Return an instance with `separation` and CREEPAGES, ready to step."""
-    return posed(open_fmu(NAME)).initialize(stop_time=1.0)
-
-
 def test_the_build_is_reproducible(fmus, tmp_path):
     for model in models(41, accumulation=True):
         path = build(model, tmp_path)
         assert path.read_bytes() == (fmus / path.name).read_bytes()
-
-
-def test_creep_stiffness_is_the_slope_of_the_forces(fmu):
-    fmu.step()
-    slope = [fmu[f"creep_stiffness[{i},1]"] for i in (1, 2, 3)]
-    h, forces = 1e-6, []
-    for change in (h, -h):
-        fmu.update({"creepage.longitudinal": CREEPAGES["creepage.longitudinal"] + change})
-        fmu.step()
-        forces.append([fmu["force.x"], fmu["force.y"], fmu["moment.z"]])
-    np.testing.assert_allclose(slope, np.subtract(*forces) / (2.0 * h), rtol=1e-3, atol=1e-4 * abs(slope[0]))
-
-
-def test_instances_do_not_share_anything(open_fmu):
-    one, two = open_fmu(NAME), open_fmu(NAME)
-    one.update({"creepage.longitudinal": 1e-3})
-    for fmu in (one, two):
-        fmu.initialize()
-        fmu.step()
-    assert one["force.x"] < -1e3
-    assert two["force.x"] == 0.0
 
 
 def test_two_builds_and_two_versions_live_in_one_process(open_fmu, tmp_path):

@@ -12,26 +12,6 @@ from contact_models.wheelset.system import scenario, simulation
 NAME = "Wheelset"
 
 
-@pytest.fixture(params=["python", "native"])
-def file(request):
-    """Return the file in each packaging."""
-    if request.param == "native":
-        return request.getfixturevalue("native_wheelset")
-    return request.getfixturevalue("fmus") / f"{NAME}.fmu"
-
-
-@pytest.fixture
-def open_wheelset(file, unzipped, freed):
-    """Return a function that instantiates the FMU."""
-
-    def open_wheelset(**start: float) -> Instance:
-        instance = freed(Instance(unzipped(file)))
-        instance.update({name.replace("__", "."): value for name, value in start.items()})
-        return instance
-
-    return open_wheelset
-
-
 def reported(opened: OpenVehicle, whole) -> dict[str, float]:
     """Return the outputs of the FMU from the vehicle in Python."""
     asked = opened.ask()
@@ -40,46 +20,44 @@ def reported(opened: OpenVehicle, whole) -> dict[str, float]:
     return {**rows, "distance": whole.distance}
 
 
-def test_equals_the_vehicle_in_python_bit_by_bit(open_wheelset):
-    fmu, whole = open_wheelset().initialize(), simulation(scenario())
-    opened = OpenVehicle(whole)
-    assert fmu.all("output") == reported(opened, whole)
+def test_equals_the_vehicle_in_python_bit_by_bit(opened):
+    fmu, whole = opened(NAME).initialize(), simulation(scenario())
+    ours = OpenVehicle(whole)
+    assert fmu.all("output") == reported(ours, whole)
     for k, row in enumerate(trajectory(fmu, 0)):
         answers = np.zeros((2, len(ANSWER)))
         for wheel in range(2):
             for column, name in enumerate(list(ANSWER)[:6]):
                 answers[wheel, column] = inputs(k)[f"wheel[{wheel + 1}].{name}"]
-        opened.move(answers, 1e-3)
-        assert row == reported(opened, whole)
+        ours.move(answers, 1e-3)
+        assert row == reported(ours, whole)
     assert row["body[2].y"] != fmu["initial.y[1]"]
 
 
 @pytest.mark.parametrize(("name", "value"), PARAMETERS)
-def test_both_packagings_have_the_same_bits_for_every_parameter(fmus, native_wheelset, unzipped, name, value):
+def test_both_packagings_have_the_same_bits_for_every_parameter(fmus, native_wheelset, unzipped, freed, name, value):
     rows = []
     for file in (fmus / f"{NAME}.fmu", native_wheelset):
-        given, usual = (Instance(unzipped(file)) for _ in range(2))
+        given, usual = (freed(Instance(unzipped(file))) for _ in range(2))
         given.update({name: value})
         rows.append([one.initialize().all("output") | trajectory(one, 0)[-1] for one in (given, usual)])
-        for one in (given, usual):
-            one.fmu.freeInstance()
     assert rows[0] == rows[1]
     if name not in ("rail.origin_y", "rail.origin_z", "reference_speed"):  # only pairs meet them here
         assert rows[0][0] != rows[0][1]
 
 
-def test_a_start_off_the_track_is_discarded_with_its_reason(open_wheelset):
-    fmu = open_wheelset(initial__distance=2e4)
+def test_a_start_off_the_track_is_discarded_with_its_reason(opened):
+    fmu = opened(NAME)
+    fmu.update({"initial.distance": 2e4})
     refused(fmu.initialize, DISCARD)
     assert "initial.distance is not on it" in fmu.log[-1][1]
 
 
-def test_its_outputs_connect_to_the_inputs_of_a_pair(open_wheelset, fmus, unzipped):
-    fmu, pair = open_wheelset(), Instance(unzipped(fmus / "WheelRailPair.fmu"))
+def test_its_outputs_connect_to_the_inputs_of_a_pair(opened):
+    fmu, pair = opened(NAME), opened("WheelRailPair")
     for name in QUESTION:
         ours, theirs = fmu.variables[f"wheel[1].{name}"], pair.variables[name]
         assert (ours.causality, theirs.causality, ours.unit) == ("output", "input", theirs.unit)
     for name in list(ANSWER)[:6]:
         ours, theirs = fmu.variables[f"wheel[1].{name}"], pair.variables[name]
         assert (ours.causality, theirs.causality, ours.unit) == ("input", "output", theirs.unit)
-    pair.fmu.freeInstance()

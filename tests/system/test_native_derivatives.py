@@ -1,8 +1,7 @@
 """Directional derivatives and creep stiffness of the native `WheelRailContact`."""
 
-import numpy as np
 import pytest
-from contact_case import CREEPAGES, geometry, posed
+from contact_case import CREEPAGES, posed
 from differences import derivative, quotient
 from fmpy.fmi1 import FMICallException
 
@@ -13,17 +12,9 @@ def fmu(open_native):
     return posed(open_native()).initialize(stop_time=1.0)
 
 
-def test_creep_stiffness_belongs_to_the_last_step(fmu):
-    fmu.step()
-    first = fmu["creep_stiffness[1,1]"]
-    fmu.update({"creepage.longitudinal": 5e-3})
-    assert fmu["creep_stiffness[1,1]"] == first
-    fmu.step(1e-3)
-    assert abs(fmu["creep_stiffness[1,1]"]) < 0.9 * abs(first)
-
-
+FORCES = ("force.x", "force.y", "moment.z")
 DERIVATIVES = [
-    *((unknown, known) for known in CREEPAGES for unknown in ("force.x", "force.y", "moment.z")),
+    *((unknown, known) for known in CREEPAGES for unknown in FORCES),
     *(("force.x", known) for known in ("load.normal_force", "friction.coefficient", "geometry.A[21]")),
     *((unknown, "load.normal_force") for unknown in ("force.y", "moment.z", "approach", "pressure.max", "patch.width")),
     ("power.friction", "speed"),
@@ -43,18 +34,9 @@ def test_directional_derivatives_are_those_of_the_solver(open_native, scale):
         # one-sided differences inside the core, and for the load the tangent of a solution with the tolerance 1e-4
         bound = 1e-3 * max(abs(wanted), 1e-3 * abs(fmu[unknown] / at))
         assert slope == pytest.approx(wanted, abs=bound), (unknown, known)
-
-
-@pytest.mark.parametrize("scale", [0.02, 0.5])
-def test_forces_by_the_scale_of_the_geometry(open_native, scale):
-    """The derivative is along (g, A) itself, all 82 samples at once: the contact becomes flatter or sharper."""
-    fmu = posed(open_native("ModelExchange"))
-    fmu.update({name: scale * value for name, value in CREEPAGES.items()})
-    fmu.initialize()
-    unknowns = ("force.x", "force.y", "moment.z", "approach", "pressure.max")
-    wanted = quotient(fmu, unknowns, geometry(), 3e-6)
-    np.testing.assert_allclose(derivative(fmu, unknowns, geometry()), wanted, rtol=1e-4)
-    assert (np.abs(wanted) > 0.01 * np.abs(list(fmu.read(unknowns).values()))).all()
+        if known in CREEPAGES:
+            row, column = FORCES.index(unknown) + 1, list(CREEPAGES).index(known) + 1
+            assert fmu[f"creep_stiffness[{row},{column}]"] == pytest.approx(slope, rel=1e-9)
 
 
 def test_a_host_may_name_enumerations_with_seeds_of_zero(open_native):

@@ -43,15 +43,13 @@ def test_fields_belong_to_the_last_step_whatever_was_computed_since(open_native_
     for k in range(3):
         fmu.update({"load.normal_force": 8e4 + 2e3 * k})
         fmu.step(k * 1e-3)
-    wanted = {name: fmu[name] for name in FIELDS}
+    wanted = {name: fmu[name] for name in (*FIELDS, "creep_stiffness")}
     fmu.directional(["force.x"], ["load.normal_force"], [1.0])
     fmu.update({"creepage.lateral": 5e-3})
     assert all(np.array_equal(fmu[name], field) for name, field in wanted.items())
-    assert fmu["creep_stiffness"].shape == (3, 3)
-    assert all(np.array_equal(fmu[name], field) for name, field in wanted.items())
 
     def fields(one):
-        return {name: one[name].tolist() for name in FIELDS}
+        return {name: one[name].tolist() for name in wanted}
 
     now, _, later = goes_on(fmu, open_native_fmi3(), lambda one: (fields(one), one.step(3e-3), fields(one)))
     assert now == {name: field.tolist() for name, field in wanted.items()}

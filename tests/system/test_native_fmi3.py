@@ -14,7 +14,7 @@ from fmu_instance import DISCARD, ERROR, recovers, refused
 from random_cases import random_case
 
 import contact
-from contact.inputs.options import N_ELEMENTS, N_STRIPS
+from contact.inputs.options import N_STRIPS
 
 
 @pytest.fixture
@@ -64,6 +64,8 @@ def test_every_native_fmu_is_there_in_both_versions_with_the_same_results(native
         kinds = {"CoSimulation": description.coSimulation, "ModelExchange": description.modelExchange}
         for kind in [kind for kind, is_there in kinds.items() if is_there]:
             options = {"fmi_type": kind, "stop_time": 0.01, "output_interval": 1e-3}
+            if name == "WheelRailPair.fmu":
+                options["start_values"] = {"accumulation.wear_law": 2, "pose.y": 2e-3}
             one, other = (in_rows(fmpy.simulate_fmu(str(file), **options)) for file in (two[name], path))
             common = set(one) & set(other)
             assert len(common) > 10, name
@@ -95,21 +97,6 @@ def test_equals_fmi_2_bit_by_bit(open_native, open_native_fmi3, kind):
         wanted, actual = two.all("output"), three.all("output")
         actual = {name: value for name, value in actual.items() if not name.startswith("field.")}
         assert scalars(actual) == scalars(by_row(wanted)), seed
-
-
-@pytest.mark.parametrize("kind", ["CoSimulation", "ModelExchange"])
-def test_simulates_with_fmpy(native, native_fmi3, kind):
-    signals = np.array([(0.0, 0.0), (0.01, 2e-3)], dtype=[("time", float), ("creepage.longitudinal", float)])
-    names = ["force.x", "total.energy"]
-    options = {"fmi_type": kind, "stop_time": 0.01, "output_interval": 1e-3, "input": signals}
-    two = fmpy.simulate_fmu(str(native), output=names, **options)
-    three = fmpy.simulate_fmu(
-        str(native_fmi3), output=[*names, "field.pressure", "field.area", "field.stick"], **options
-    )
-    assert all(np.array_equal(two[name], three[name]) for name in ("time", *names))
-    assert three["field.pressure"].shape == (11, *SHAPE)
-    np.testing.assert_allclose(np.sum(three["field.pressure"] * three["field.area"], (1, 2, 3)), 80e3, rtol=1e-12)
-    assert three["field.stick"][-1].sum() < three["field.stick"][0].sum() == N_STRIPS.usual * N_ELEMENTS.usual
 
 
 def test_arrays_move_with_time_with_fmpy(native_fmi3):

@@ -1,7 +1,5 @@
 """The native `WheelRailContact` through the C interface of FMI, as a user calls it."""
 
-import math
-
 import numpy as np
 import pytest
 from contact_case import posed
@@ -17,35 +15,6 @@ def fmu(open_native):
     fmu = posed(open_native())
     fmu.update(THESIS)
     return fmu.initialize(stop_time=1.0)
-
-
-def test_an_invalid_step_is_an_error_and_changes_nothing(fmu):
-    for time, h, text in (
-        (0.0, 0.0, "= 0 is outside"),
-        (0.0, math.nan, "= nan is outside"),
-        (0.0, 1.1, "stopTime = 1"),
-        (1e-3, 1e-3, "currentCommunicationPoint = 0.001 does not continue"),
-        (-1e-3, 1e-3, "does not continue"),
-        (1e-300, 1e300, "stopTime = 1"),
-    ):
-        fmu.log.clear()
-        refused(lambda time=time, h=h: fmu.step(time, h), ERROR)
-        assert text in fmu.log[0][1]
-    fmu.step(0.0, 1.0)
-
-
-def test_a_step_is_not_done_twice(fmu):
-    """Totals would count it twice. After a saved state is restored, steps continue from its time."""
-    fmu.step(0.0, 1e-3)
-    state = fmu.fmu.getFMUstate()
-    fmu.step(1e-3, 1e-3)
-    for time in (0.0, 1e-3, 3e-3):
-        refused(lambda time=time: fmu.step(time, 1e-3), ERROR)
-    energy = fmu["total.energy"]
-    fmu.fmu.setFMUstate(state)
-    fmu.step(1e-3 * (1.0 + 1e-12), 1e-3)
-    assert fmu["total.energy"] == energy
-    fmu.fmu.freeFMUstate(state)
 
 
 def test_extreme_values_give_finite_outputs_or_none(open_native):

@@ -25,16 +25,6 @@ def test_contacts_in_python_give_the_same_run_to_round_off(whole):
     assert force < 1e-6
 
 
-def test_the_error_of_stepping_all_at_once_falls_with_the_step():
-    """The answers are one step late, which delays a stiff spring: it needs steps far below those of the one kernel."""
-    errors = []
-    for h in (4e-5, 2e-5):
-        samples = round(0.06 / (10 * h))
-        late = coupled(python_contacts(OPTIONS), OPTIONS, h, samples, parallel=True)
-        errors.append(difference(in_one_kernel(OPTIONS, h, samples), late)[1])
-    assert 0.0 < errors[1] < 0.6 * errors[0]
-
-
 def test_the_energy_of_a_coupled_run_closes():
     whole = vehicle(OPTIONS)
     opened = OpenVehicle(whole)
