@@ -42,11 +42,6 @@ class Outline(NamedTuple):
             starts[low:high], ends[low:high] = rates[:-1], rates[1:]
         return cls(s, points, starts, ends)
 
-    @property
-    def rates(self) -> Array:
-        """Derivatives at the points; at a kink those behind it."""
-        return np.concatenate((self.starts, self.ends[-1:]))
-
     def at(self, s: Array) -> tuple[Array, Array]:
         """Return (y, z) at the lengths `s`, and their derivatives, each of shape (2, ...)."""
         k = np.clip(np.searchsorted(self.s, s, side="right") - 1, 0, self.s.size - 2)

@@ -157,12 +157,8 @@ class _FilePair(TransientPair):
 
     def _solution(self, patches: Sequence[SurfacePatch], at: Instant) -> PairSolution:
         """Return the solution of patches as CONTACT separates them: beyond D_SEP each counts for itself, and fully."""
-        search, limit = self._search(), self.case["D_SEP"]
-        kept = [p for p in patches if p.share == 1.0 or not lobes.reaches_over(p.gap, p.approach, limit)]
-        return super()._solution(search.patches(kept), at)
-
-    def _search(self) -> Search:
-        return Search(self.pair, self._pose, self.outlines, self.case)
+        search = Search(self.pair, self._pose, self.outlines, self.case)
+        return super()._solution(search.patches(patches), at)
 
     def _under(self, vertical: float, at: Instant) -> PairSolution:
         """Return the solution under a vertical force, from whole solutions at heights, of which few are needed.
@@ -174,13 +170,12 @@ class _FilePair(TransientPair):
         tried: list[tuple[float, float]] = []
         found: PairSolution | None = None
         within(self.pair.found)(Height.PENETRATION, 0.0)
-        search = self._search()
-        touch = self.pair.z - (search.deepest() if search.by_locus else 0.0)
+        touch = self.pair.z
 
         def residual(depth: float) -> float:
             nonlocal found
             self.pair.space.motion[0].z = touch + depth
-            found = self._solution(() if search.by_locus else within(self.pair.found)(), at)
+            found = self._solution(within(self.pair.found)(), at)
             tried.append((abs(found.Q - vertical), depth))
             return 0.0 if tried[-1][0] <= _TOLERANCE * vertical else max(found.Q, 0.0) ** (2.0 / 3.0) - target
 

@@ -94,13 +94,6 @@ class Rail:
         r = self.roller - (height + frame.origin[2])
         return np.asarray(self.roller - np.sqrt(r**2 - (frame.origin[0] + x) ** 2) - frame.origin[2])
 
-    def across(self, frame: Frame, x: Array) -> Array:
-        """Return the places across a frame of the nodes of the cross-sections at `x`, (x, path) [m]; NaN where absent."""
-        turn, to = in_frame(frame, self.place)
-        axes = frame.axes[1:, 1:] @ turn
-        nodes = self._pair.rail.curves(self._station + x)
-        return np.asarray(np.einsum("b,bcp->cp", axes[0], nodes) + to[0])
-
     def slopes(self, frame: Frame, y: Array) -> Array:
         """Return the slope of the outline at x = 0 over rows of a frame [rad]."""
         return over(self.here, y, frame, self.place)[1]

@@ -1,11 +1,11 @@
-"""CONTACT's search for contacts, whose reference points are not quite those of the surfaces.
+"""Where CONTACT puts the patches that the search of the surfaces has found: its reference points are not quite theirs.
 
-It follows the locus on the wheel at which it is nearest to the rail, and takes the wheel's curvature for that of the distance
+They are means over the overlap, weighted with the vertical depth squared, and so are contact angles, for which the outline of
+the rail at the wheelset counts. CONTACT takes the largest depth of each row, and the wheel's curvature for that of the depth
 along the track. With D = 5, 6 and 9, and for wheels with slices, it looks at a coarse mesh: the wheel is sampled at the points
 of its profile and every 1.5 DX along, or at the paths of its slices and every 4 DX around, and interpolated bilinearly on a
-grid with steps of 3/4 DS across. Reference points are means over the overlap, weighted with the depth squared, and so are
-contact angles, for which the outline of the rail at the wheelset counts. They are some hundredths of a millimetre off those
-of the surfaces, and at the edge of a flat the elements see another pressure.
+grid with steps of 3/4 DS across. The points are some hundredths of a millimetre off those of the surfaces, and at the edge of a
+flat the elements see another pressure.
 """
 
 from __future__ import annotations
@@ -18,17 +18,15 @@ from typing import NamedTuple
 import numpy as np
 
 from contact.arrays import Array
-from contact.errors import ContactError
 from contact.geometry.records import Pose
 from contact.geometry.surfaces import SurfacePair, SurfacePatch
 from contact.geometry.surfaces.frame import Frame
 from contact.halfspace import Gap
 from contact.halfspace.lattice import Lattice
 from contact.inp.case import Case
-from contact.inp.lobes import zero
-from contact.inp.locus import locus, points_of
+from contact.inp.lobes import reaches_over, zero
 from contact.inp.nodes import bilinear
-from contact.inp.outline import Outline, Outlines, standing
+from contact.inp.outline import Outlines, standing
 from contact.inp.rail import Rail
 from contact.inp.sliced import SlicedWheel, about, near, odd
 from contact.inputs.creepage import Creepage
@@ -40,12 +38,10 @@ _HALF, _AROUND = 0.2, 4.0
 #: A round wheel: half of the length that is searched over its radius, that for steep slopes and small wheels, and the radius
 #: of these [m]; steps along it over DX.
 _LENGTH, _LONG, _SMALL, _ALONG = 0.125, 0.242, 0.0305, 1.5
-#: Steps across over DS: of the mesh, the same for steep slopes, and along the locus.
-_ACROSS, _STEEP, _LOCUS = 0.75, 0.3, 0.3
+#: Steps across over DS: of the mesh, the same for steep slopes, and without a mesh.
+_ACROSS, _STEEP, _FINE = 0.75, 0.3, 0.3
 #: [m] by which the search looks beyond a patch; least weight of a place [m²].
 _BEYOND, _LEAST = 3e-3, 1e-16
-#: Distance at which points of the wheel are looked at, and how far beyond them [m].
-_NEAR, _BESIDE = 1e-4, 1.5e-3
 _ABSENT = 1e-3  # [m] by which elements without a rail lie above the highest other one
 
 
@@ -79,58 +75,29 @@ class Search:
     def __init__(self, pair: SurfacePair, pose: Pose, bodies: Outlines, case: Case) -> None:
         self.pair, self.pose, self.wheel, self.case = pair, pose, bodies.wheel, case
         self.rail = Rail(pair, bodies)
-        self.on_mesh = case["SEARCH"] in (5, 6, 9)
+        self.on_mesh = bodies.wheel is None or case["SEARCH"] in (5, 6, 9)
         self.steps: tuple[float, float] = case["DX"], case["DS"]
 
     @property
-    def by_locus(self) -> bool:
-        """Whether contacts are sought along the whole locus; else only where the library's search has found some."""
-        return self.wheel is not None and not self.on_mesh and self.rail.straight
+    def by_lobe(self) -> bool:
+        """Whether each lobe counts for itself until it is joined with others; else those of a patch are one."""
+        return not self.on_mesh and self.rail.straight
 
     def patches(self, patches: Sequence[SurfacePatch]) -> list[SurfacePatch]:
         """Return the patches of CONTACT on its elements; `patches` are those that the library's search has found."""
-        if self.by_locus:
-            lobes = [one for view, box in self._boxes() for one in self._locus(view, box, apart=True)]
-            found = joined(lobes, (self.case["D_SEP"], self.case["A_SEP"]), self._height)
-        else:
-            found = [one for patch in patches for one in self._found(patch)]
         limits = self.case["D_SEP"], self.case["D_TURN"], self.case["A_SEP"]
+        if not self.by_lobe:  # parts of a patch that lie further apart than D_SEP stand among the patches, too
+            patches = [p for p in patches if p.share == 1.0 or not reaches_over(p.gap, p.approach, limits[0])]
+        found = [one for patch in patches for one in self._found(patch)]
+        if self.by_lobe:
+            found = joined(found, (limits[0], limits[2]), self._height)
         placed = (
             self._placed(one._replace(angle=angle)) for one, angle in zip(found, turned(found, limits), strict=True)
         )
         return [patch for patch in placed if patch is not None]
 
-    def deepest(self) -> float:
-        """Return the largest depth along the whole locus [m], negative where the bodies are apart; 0 if it is not found."""
-        depths = [self._depths(view, box)[2] for view, box in self._boxes()]
-        return max((float(depth.max()) for depth in depths if depth.size), default=0.0)
-
-    def _boxes(self) -> list[tuple[Frame, tuple[float, float]]]:
-        """Return views at places of the rail and the ranges of y there in which the wheel is near or within it [m]."""
-        whole = Frame(np.array([0.0, *self.rail.place[:2]]), np.eye(3))
-        at = points_of(self.pair, self.pose, self._round, whole, (-math.inf, math.inf), self.rail)
-        y, z = self.rail.top(whole)
-        height = self.rail.bent(whole, at[:, 0], np.interp(at[:, 1], y, z, left=np.nan, right=np.nan))
-        depth = np.nan_to_num(at[:, 2] - height, nan=-1.0)
-        near = np.flatnonzero(depth > min(-_NEAR, float(depth.max()) - _NEAR))
-        places = np.sort(at[near, 1])
-        boxes = []
-        for run in np.split(places, np.flatnonzero(np.diff(places) > 2.0 * _BESIDE) + 1):
-            middle = 0.5 * float(run[0] + run[-1])
-            origin = whole.origin + np.array([0.0, middle, float(np.interp(middle, y, z))])
-            boxes.append(
-                (Frame(origin, np.eye(3)), (float(run[0]) - middle - _BESIDE, float(run[-1]) - middle + _BESIDE))
-            )
-        return boxes
-
-    @property
-    def _round(self) -> Outline:
-        if self.wheel is None:
-            raise ContactError("a wheel with slices has no locus")
-        return self.wheel
-
     def _found(self, patch: SurfacePatch) -> list[Found]:
-        """Return where the search puts a patch; none if it misses it."""
+        """Return where the search puts a patch, or each of its lobes; none if it misses it."""
         mirror = 1.0 if self.pair.side == "right" else -1.0
         seen = patch.frame if mirror > 0.0 else patch.frame.mirrored
         inside = (patch.gap.h < patch.approach).any(axis=1)
@@ -139,10 +106,44 @@ class Search:
         rows = rows * seen.axes[1, 1] + heights * seen.axes[2, 1]
         view = Frame.turned(seen.origin * [0.0, 1.0, 1.0], 0.0)
         box = float(rows.min()) - _BEYOND, float(rows.max()) + _BEYOND
-        if self.wheel is None or self.on_mesh:
-            found = self._brute(view, box, seen.origin[0] + patch.gap.x[[0, -1]])
-            return [] if found is None else [found]
-        return self._locus(view, box)
+        columns = seen.origin[0] + patch.gap.x
+        x, y, depth = self._by_mesh(view, box, columns) if self.on_mesh else self._by_surfaces(view, box, columns)
+        touching = depth > 0.0
+        runs = np.flatnonzero(touching.any(axis=1))
+        if runs.size == 0:
+            return []
+        power = 1.0 if self.case.digits["WEIGHTING"] == 1 else 2.0
+        slopes = np.nan_to_num(self.rail.slopes(view, y))
+        found = []
+        for i in np.split(runs, np.flatnonzero(np.diff(runs) > 1) + 1) if self.by_lobe else [runs]:
+            if self.on_mesh:
+                weight = np.where(touching[i], np.maximum(depth[i] ** power, _LEAST), 0.0)
+                k, by_row, means = np.flatnonzero(touching[i].any(axis=0)), weight.sum(axis=1), weight @ x
+                along = float(x[max(k[0] - 1, 0)]), float(x[min(k[-1] + 1, x.size - 1)])
+                across = y[[max(i[0] - 1, 0), min(i[-1] + 1, y.size - 1)]]
+            else:
+                at, most = _highest(x, depth)
+                half = np.sqrt(np.maximum(most[i], 0.0) / self._curvature)
+                by_row = np.maximum(most[i], 0.0) ** power * half  # the integral over x of a parabola, or of its square
+                means = by_row * at[i]
+                along = float((at[i] - half).min()), float((at[i] + half).max())
+                across = np.array([zero(y, -most, i[0] - 1, i[0]), zero(y, -most, i[-1] + 1, i[-1])])
+            total = float(by_row.sum())
+            mean = float(means.sum()) / total, float((by_row * y[i]).sum()) / total
+            one = self._finished(view, mean, float((by_row * slopes[i]).sum()) / total, total, along, across)
+            found += [] if one is None else [one]
+        return found
+
+    @property
+    def _curvature(self) -> float:
+        """Half the curvature along the track, which CONTACT takes for that of the depth [1/m]."""
+        return 0.5 / self.pair.nominal_radius + (0.0 if self.rail.roller is None else 0.5 / self.rail.roller)
+
+    def _by_surfaces(self, view: Frame, box: tuple[float, float], columns: Array) -> tuple[Array, Array, Array]:
+        """Return x, y of a grid in a view and the depth there, that of the surfaces [m]."""
+        y = _multiples(self.rail.first(view, 0), _FINE * self.steps[1], box)
+        x = _multiples(0.0, self.steps[0], (columns[0] - self.steps[0], columns[-1] + self.steps[0]))
+        return x, y, -within(self.pair.distance)(view, x, y)
 
     def _heights(self, frame: Frame, y: Array) -> Array:
         """Return the heights of the rail over the axis x = 0 of a frame [m]."""
@@ -172,35 +173,18 @@ class Search:
         ends = np.stack((across, z[1:]), axis=1) + view.origin[1:]
         return Found(over.origin + np.array([0.0, at[1], z[0]]), angle, weight, along, ends)
 
-    def _brute(self, view: Frame, box: tuple[float, float], columns: Array) -> Found | None:
-        """Return where a patch lies whose y in a view is in a box, by a mesh of the wheel; None if the mesh misses it."""
+    def _by_mesh(self, view: Frame, box: tuple[float, float], columns: Array) -> tuple[Array, Array, Array]:
+        """Return the same of a mesh of the wheel."""
         steep = self.case["SEARCH"] == 6
-        step = (_STEEP if steep else _ACROSS) * self.steps[1]
-        first = self.rail.first(view, 1)
-        y = _multiples(first, step, box)
+        y = _multiples(self.rail.first(view, 1), (_STEEP if steep else _ACROSS) * self.steps[1], box)
         whole = self._nodes(view, steep)
         x = np.linspace(float(whole[..., 0].min()), float(whole[..., 0].max()), whole.shape[1])
         more = 3.0 * (x[1] - x[0]) + _BEYOND
-        x = x[(x > columns[0] - more) & (x < columns[1] + more)]
+        x = x[(x > columns[0] - more) & (x < columns[-1] + more)]
         nodes = near(whole, y)
         grid_x, grid_y = np.meshgrid(x, y)
-        wheel = bilinear(nodes, grid_x, grid_y, *about(nodes, x, y))
-        depth = wheel - self.rail.heights(view, x, y)
-        depth = np.where(np.isfinite(depth), depth, 0.0)
-        touching = depth > 0.0
-        if not touching.any():
-            return None
-        weight = np.where(touching, np.maximum(self._weight(depth), _LEAST), 0.0)
-        k, i = np.flatnonzero(touching.any(axis=0)), np.flatnonzero(touching.any(axis=1))
-        along = float(x[max(k[0] - 1, 0)]), float(x[min(k[-1] + 1, x.size - 1)])
-        across = y[[max(i[0] - 1, 0), min(i[-1] + 1, y.size - 1)]]
-        slopes = np.nan_to_num(self.rail.slopes(view, y))
-        total, by_row = float(weight.sum()), weight.sum(axis=1)
-        at = float((weight.sum(axis=0) * x).sum()) / total, float((by_row * y).sum()) / total
-        return self._finished(view, at, float((by_row * slopes).sum()) / total, total, along, across)
-
-    def _weight(self, depth: Array) -> Array:
-        return np.asarray(depth if self.case.digits["WEIGHTING"] == 1 else depth**2)
+        depth = bilinear(nodes, grid_x, grid_y, *about(nodes, x, y)) - self.rail.heights(view, x, y)
+        return x, y, np.where(np.isfinite(depth), depth, 0.0)
 
     def _nodes(self, view: Frame, steep: bool) -> Array:
         """Return the nodes of the wheel's mesh in a view, shape (row, column, 3) [m]."""
@@ -214,42 +198,6 @@ class Search:
         y, z = self.wheel.points.T[..., None]
         points = np.stack(np.broadcast_arrays(u, y, np.sqrt((radius + z) ** 2 - u**2) - radius), axis=-1)
         return np.asarray((points @ turn.T + (origin - view.origin)) @ view.axes.T)
-
-    def _depths(self, view: Frame, box: tuple[float, float]) -> tuple[Array, Array, Array]:
-        """Return rows y in a box, x of the locus there, and the depth [m]."""
-        y = _multiples(self.rail.first(view, 0), _LOCUS * self.steps[1], box)
-        if y.size == 0:
-            return y, y, y
-        return y, *locus(self.pair, self.pose, self._round, self.rail, view, y)
-
-    def _locus(self, view: Frame, box: tuple[float, float], apart: bool = False) -> list[Found]:
-        """Return where patches lie by the least distance at each y; lobes of a box are one, or each by itself.
-
-        The wheel's curvature stands for that along the track.
-        """
-        curvature = 0.5 / self.pair.nominal_radius
-        if self.rail.roller is not None:
-            curvature += 0.5 / self.rail.roller
-        y, at, depth = self._depths(view, box)
-        k = np.flatnonzero(depth > 0.0)
-        if k.size == 0:
-            return []
-        power = 1.0 if self.case.digits["WEIGHTING"] == 1 else 2.0
-        slopes = np.nan_to_num(self.rail.slopes(view, y))
-        found = []
-        for i in np.split(k, np.flatnonzero(np.diff(k) > 1) + 1) if apart else [k]:
-            across = np.array([zero(y, depth, i[0] - 1, i[0]), zero(y, depth, i[-1] + 1, i[-1])])
-            # the integral over x of the depth, or of its square, of a parabola
-            half = np.sqrt(depth[i] / curvature)
-            weight = depth[i] ** power * half
-            total = float(weight.sum())
-            mean = float((weight * at[i]).sum()) / total, float((weight * y[i]).sum()) / total
-            along = float((at[i] - half).min()), float((at[i] + half).max())
-            angle = float((weight * slopes[i]).sum()) / total
-            one = self._finished(view, mean, angle, total, along, across)
-            if one is not None:
-                found.append(one)
-        return found
 
     def _placed(self, found: Found) -> SurfacePatch | None:
         """Return a patch on CONTACT's elements where it was found; None without overlap."""
@@ -318,6 +266,15 @@ class Search:
 def _wider(edges: Box, dx: float, ds: float) -> Box:
     """Return a range with a step more on each side."""
     return edges[0] - dx, edges[1] + dx, edges[2] - ds, edges[3] + ds
+
+
+def _highest(x: Array, depth: Array) -> tuple[Array, Array]:
+    """Return x and the depth of the vertex of the parabola through the largest depth of each row and its neighbours."""
+    k = np.clip(depth.argmax(axis=1), 1, x.size - 2)
+    before, here, behind = (depth[np.arange(k.size), k + n] for n in (-1, 0, 1))
+    slope, bend = 0.5 * (behind - before), before - 2.0 * here + behind
+    t = np.clip(np.where(bend < 0.0, -slope / np.where(bend < 0.0, bend, 1.0), 0.0), -1.0, 1.0)
+    return x[k] + t * (x[1] - x[0]), here + t * slope + 0.5 * t * t * bend
 
 
 def _multiples(first: float, step: float, box: tuple[float, float]) -> Array:
