@@ -21,6 +21,7 @@ from contact.inputs.plausibility import (
     doubt_alike,
     doubt_beyond,
     doubt_gap,
+    doubt_normal_force,
     doubt_rows,
     doubt_strips,
     doubt_values,
@@ -190,6 +191,8 @@ def forces(
         return np.ascontiguousarray(results[name]).reshape(shape)
 
     if count:
+        worst = int(results["N"].argmax())
+        doubt_normal_force(float(results["N"][worst]), separations[which[worst]].told)
         worst = int(results["gap_error"].argmax())
         doubt_gap(
             float(results["gap_error"][worst]), method.gap_limit, separations[which[worst]].told, "gap in an array"

@@ -313,7 +313,7 @@ def _on_strips(
     key = normal, tangential, *size, material, bool(conformal), max_iterations, coefficients
     solver = _lent(key)
     solver.told = getattr(separation, "told", set())  # the separation is the user's
-    solver.doubted = doubted
+    solver.doubted = None if doubted else set()
     try:
         if start is not None:
             solver.start_from(start)

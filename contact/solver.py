@@ -22,6 +22,7 @@ from contact.inputs.plausibility import (
     doubt_beyond,
     doubt_case,
     doubt_gap,
+    doubt_normal_force,
     doubt_rows,
     doubt_strips,
 )
@@ -36,7 +37,7 @@ from contact.kernels.solver import derive_contact, solve_contact, solve_contact_
 from contact.registry import DEFAULT_NORMAL, DEFAULT_TANGENTIAL, GAP_LIMIT_INTERACTING, Method, lookup
 from contact.results import BEND, BEYOND, CaseForces, Jacobian, Prepared, Solution, Status
 from contact.results.later import STATES
-from contact.results.solution import BEND_AT, BEYOND_AT, GAP_ERROR, READ_RESULT, STATUS
+from contact.results.solution import BEND_AT, BEYOND_AT, GAP_ERROR, N_AT, READ_RESULT, STATUS
 from contact.view import trace
 
 #: The methods of the thesis and a resolution for them, as arguments of `solve`, `forces`, `Solver` and `WheelRailPair`.
@@ -138,7 +139,7 @@ class Solver(OwnsArrays):
         if conformal:
             require_conformal(self.tangential)
         self.max_iterations = ITERATIONS.require("max_iterations", max_iterations)
-        self.doubted = False  # whether the arguments of a call were judged
+        self.doubted: set[str] | None = set()  # arguments that were told to be unusual; None: they are not judged here
         self.told: set[str] = set()  # for what there was a ModelWarning
         self._coefficients: NDArray[np.float64] | None = None
         problem = cases(
@@ -260,6 +261,7 @@ class Solver(OwnsArrays):
             creepage = replace(as_creepage(creepage), longitudinal=vx, lateral=vy)
         if throw:
             require_trustworthy(STATES[found[STATUS]], separation.y, load, approach)
+        doubt_normal_force(found[N_AT], self.told)
         doubt_strips(found[BEND_AT], BEND, self.conformal, self.told)
         doubt_gap(found[GAP_ERROR], self.normal.gap_limit, self.told)
         doubt_beyond(found[BEYOND_AT], BEYOND, self.told)
@@ -327,11 +329,12 @@ class Solver(OwnsArrays):
         friction = self._given if friction is None or self._is_given(friction) else friction
         if friction is not self._given or (speed is not None and speed != self._speed):
             within(self.set_surface)(friction, self._speed if speed is None else speed)
-        if not self.doubted:  # at the first call only, which may be one of millions
-            self.doubted = True
+        if self.doubted is not None:  # a run in time is told once of each
             vector = creepage.longitudinal, creepage.lateral, creepage.spin
-            doubt_case(load, approach, vector, self._friction.static, self._speed)
-            doubt_alike(self.material.coupling)
+            doubt_case(load, approach, vector, self._friction.static, self._speed, self.doubted)
+            if "coupling" not in self.doubted:
+                self.doubted.add("coupling")
+                doubt_alike(self.material.coupling)
         if separation.y.size > self._n_samples:
             self._allocate(separation.y.size, self._case)
         member = self._member

@@ -59,21 +59,22 @@ int wr_pair_doubts(const wr_pair_options *o, const wr_pair_input *in) {
            doubt(U_WHEEL_LOAD, under_load ? in->amount : 0.0) | doubt_surface(&in->surface);
 }
 
-/* Doubts about an answer of strips with this largest change of the contact angle, this share of the load beyond the table of creep
- * forces, and this error of the gap. */
-static int doubt_answer(const wr_contact_options *o, double bend, double beyond, double gap_error) {
+/* Doubts about an answer with this normal force and, of strips, with this largest change of the contact angle, this share of the
+ * load beyond the table of creep forces, and this error of the gap. */
+static int doubt_answer(const wr_contact_options *o, double N, double bend, double beyond, double gap_error) {
     const int interacting = wri_normal_method(o->normal)->interacting;
-    return doubt(U_BEND, bend) | doubt(U_BEYOND, beyond) | doubt(interacting ? U_GAP_ERROR_INTERACTING : U_GAP_ERROR, gap_error);
+    return doubt(U_N, N) | doubt(U_BEND, bend) | doubt(U_BEYOND, beyond) |
+           doubt(interacting ? U_GAP_ERROR_INTERACTING : U_GAP_ERROR, gap_error);
 }
 
 int wr_contact_answer_doubts(const wr_contact_options *o, const wr_result *result) {
     TRY(wri_check_contact_options(o));
     TRY(aligned(result, A_result));
-    return doubt_answer(o, result->bend, result->beyond, result->gap_error);
+    return doubt_answer(o, result->N, result->bend, result->beyond, result->gap_error);
 }
 
 int wr_pair_answer_doubts(const wr_pair_options *o, const wr_pair_answer *answer) {
     TRY(wri_check_pair_options(o));
     TRY(wri_check_answer_struct(answer));
-    return doubt_answer(&o->patch, answer->total.bend, answer->total.beyond, answer->total.gap_error);
+    return doubt_answer(&o->patch, answer->total.Q, answer->total.bend, answer->total.beyond, answer->total.gap_error);
 }

@@ -56,8 +56,8 @@ def read(path: str | os.PathLike[str]) -> list[Case]:
     Warns
     -----
     PlausibilityWarning
-        For digits that a first case changes, and numbers that stand behind the last value of their line: CONTACT takes a
-        decimal comma for a blank, so that all values behind it move by one. For lines behind MODULE 0.
+        For digits that a first case changes, and numbers that stand behind the last value of their line or have a comma
+        inside: CONTACT takes a decimal comma for a blank, so that all values behind it move by one. For lines behind MODULE 0.
     """
     cases = _Reader(Path(path)).cases()
     if noted := [case for case in cases if case.notes]:
@@ -134,8 +134,8 @@ class _Reader:
         values = {name: value for name, value in now.items() if name not in digits}
         at.update(fresh)
         self.check(module, digits, values)
-        notes += self.lines.unread
-        self.lines.unread = []
+        notes += self.lines.doubted
+        self.lines.doubted = []
         self.memory[key] = values, at
         shared = (0, 0) if element == 0 else (element, problem)
         number = self.count[shared] = self.count.get(shared, 0) + 1
@@ -232,7 +232,7 @@ class _Reader:
             now[field.name] = value
             fresh[field.name] = self.lines.number
             if field.name == "SPINYO" and not there and now["SPINXO"]:
-                self.lines.unread.append(f"line {self.lines.number}: SPINXO without SPINYO is not read")
+                self.lines.doubted.append(f"line {self.lines.number}: SPINXO without SPINYO is not read")
                 now["SPINXO"] = 0.0
             if field.name == "FKIN" and now["L"] == 0 and abs(value - now["FSTAT"]) > 1e-3 * now["FSTAT"]:
                 self.lines.refuse(f"FKIN = {value:g} with L = 0; allowed: FSTAT = {now['FSTAT']:g}")

@@ -16,6 +16,8 @@ from contact.reading.text import lines_of
 LINE_LENGTH = 256
 #: Longest file that is read [bytes].
 LARGEST_FILE = 500_000_000
+#: A number with a decimal comma, among the numbers with which a line begins.
+_COMMA = re.compile(r"[\d\s.,+-]*?(?<![\d.,])([+-]?\d+),(\d+)(?![\w.,+-])")
 _NUMBER = re.compile(r"([+-]?(?:\d+\.?\d*|\.\d+))(?:[eEdDqQ]([+-]?\d+)|([+-]\d+))?")
 
 
@@ -81,8 +83,8 @@ class Lines:
         self._lines = lines_of(path, "path", LARGEST_FILE)
         #: Number of the line that was read last.
         self.number = 0
-        #: Numbers that stood behind the last value of their line, for `notes` of a case.
-        self.unread: list[str] = []
+        #: Numbers that stood behind the last value of their line or have a comma inside, for `notes` of a case.
+        self.doubted: list[str] = []
         self._rest: list[str] = []
         self._last = ""
 
@@ -93,7 +95,7 @@ class Lines:
     def new_group(self) -> None:
         """Skip the rest of the line: a label, or numbers that are told."""
         if self._rest and _NUMBER.fullmatch(self._rest[0]):
-            self.unread.append(f"line {self.number}: {self._rest[0]} behind {self._last} is not read")
+            self.doubted.append(f"line {self.number}: {self._rest[0]} behind {self._last} is not read")
         self._rest = []
 
     def _next(self, name: str) -> None:
@@ -103,6 +105,10 @@ class Lines:
             if line.split("%")[0].strip():
                 self._rest = split(line)
                 if self._rest:
+                    if "," in line and (comma := _COMMA.match(line)):
+                        self.doubted.append(
+                            f"line {self.number}: {comma[1]},{comma[2]} is read as {comma[1]} and {comma[2]}"
+                        )
                     return
         self.refuse(f"the file ends where {name} is expected; MODULE 0 is missing")
 

@@ -132,6 +132,17 @@ def about_beyond(largest: float) -> str:
     )
 
 
+#: Of a force that was found [N]: a fall of the wheel through its rail by a millimetre has 4e6.
+USUAL_N = Usual(1e6, "a wheel carries 20 to 150 kN; do wheel and rail overlap by millimetres?")
+
+
+def doubt_normal_force(force: float, told: set[str], called: str = "N") -> None:
+    """Warn of a force [N] that was found for a given height or approach and that no wheel carries."""
+    if force > USUAL_N.largest and called not in told:
+        told.add(called)
+        doubt(called, force, USUAL_N.largest, USUAL_N.hint)
+
+
 def doubt_beyond(beyond: float, largest: float, told: set[str]) -> None:
     """Warn of a share `beyond` of the load, above `largest`, on shapes beyond the table of creep forces."""
     if beyond > largest:
@@ -182,11 +193,31 @@ def doubt_rows(fit_error: float, limit: float, told: set[str]) -> None:
         )
 
 
+_CASE = ("load", "approach", "creepage.longitudinal", "creepage.lateral", "creepage.spin", "friction", "speed")
+_LARGEST = tuple(USUAL[name].largest for name in _CASE)
+
+
 def doubt_case(
-    load: float | None, approach: float | None, creepage: tuple[float, float, float], friction: float, speed: float
+    load: float | None,
+    approach: float | None,
+    creepage: tuple[float, float, float],
+    friction: float,
+    speed: float,
+    doubted: set[str] | None = None,
 ) -> None:
-    """Warn of arguments of `contact.solve` that no wheel on a rail has."""
-    names = ("load", "approach", "creepage.longitudinal", "creepage.lateral", "creepage.spin", "friction", "speed")
-    for name, value in zip(names, (load, approach, *creepage, friction, speed), strict=True):
-        if value is not None:
-            doubt_value(name, value)
+    """Warn of arguments of `contact.solve` that no wheel on a rail has and whose names are not among the `doubted` ones."""
+    most_load, most_approach, longitudinal, lateral, spin, most_friction, fastest = _LARGEST
+    if (  # this is asked at every call of a solver, so all at once
+        (not load or USUAL["load"].least <= load <= most_load)
+        and (not approach or approach <= most_approach)
+        and abs(creepage[0]) <= longitudinal
+        and abs(creepage[1]) <= lateral
+        and abs(creepage[2]) <= spin
+        and friction <= most_friction
+        and speed <= fastest
+    ):
+        return
+    doubted = set() if doubted is None else doubted
+    for name, value in zip(_CASE, (load, approach, *creepage, friction, speed), strict=True):
+        if value is not None and name not in doubted and doubt_value(name, value):
+            doubted.add(name)

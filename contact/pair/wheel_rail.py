@@ -20,7 +20,7 @@ from contact.geometry.surfaces import SurfacePair
 from contact.geometry.wheelset import Pair
 from contact.inputs.material import STEEL, Material
 from contact.inputs.options import ITERATIONS, N_ELEMENTS, N_STRIPS
-from contact.inputs.plausibility import doubt_alike, doubt_beyond, doubt_gap, doubt_strips
+from contact.inputs.plausibility import doubt_alike, doubt_beyond, doubt_gap, doubt_normal_force, doubt_strips
 from contact.instance import workspace
 from contact.instance.case import SURFACE, cases, surface_bytes
 from contact.instance.ownership import one_thread, turn_of, within
@@ -296,6 +296,7 @@ class WheelRailPair(AnyPair):
         jacobian = self._derive(mode) if derivatives else None
         y, z = self._deflection
         found = PairSolution.of_kernel(*self._found, code, (float(y[0]), float(z[0])), given[_SPIN], jacobian)
+        doubt_normal_force(found.Q, self.pair.told, "Q")
         doubt_gap(found.gap_error, self._gap_limit, self.pair.told)
         doubt_strips(found.bend, BEND, self._methods["conformal"], self.pair.told)
         doubt_beyond(found.beyond, BEYOND, self.pair.told)

@@ -18,7 +18,7 @@ from contact.damage import Damage, evaluate
 from contact.errors import only_with_fields
 from contact.inputs.creepage import Creepage
 from contact.inputs.material import Material
-from contact.inputs.plausibility import Usual, about_bend, about_beyond, about_gap
+from contact.inputs.plausibility import USUAL_N, Usual, about_bend, about_beyond, about_gap
 from contact.kernels.arrays import SolverArrays
 from contact.kernels.enumerations import Status
 from contact.kernels.friction import of_case
@@ -37,12 +37,13 @@ Records = NDArray[np.void]
 BEND = 0.4
 #: Share of the load on shapes beyond the table of creep forces above which forces are doubtful [-].
 BEYOND = 0.01
-#: What is doubted of an answer of strips: its largest usual value, and what is wrong above it.
+#: What is doubted of an answer: its largest usual value, and what is wrong above it.
 ANSWERS = {
     "bend": Usual(BEND, about_bend(BEND)),
     "beyond": Usual(BEYOND, about_beyond(BEYOND)),
     "gap_error": Usual(GAP_LIMIT, about_gap(GAP_LIMIT)),
     "gap_error interacting": Usual(GAP_LIMIT_INTERACTING, about_gap(GAP_LIMIT_INTERACTING)),
+    "N": USUAL_N,
 }
 
 #: Member of the records RESULT and TOTAL → attribute of a solution, for the numbers that are called otherwise.
@@ -54,8 +55,8 @@ _NAMES = [RENAMED.get(name, name) for name in _MEMBERS if name not in _UNTOLD]
 _PICK = itemgetter(*(k for k, name in enumerate(_MEMBERS) if name not in _UNTOLD))
 #: Reads the record as numbers. Where some of them are; the edges are the last ones.
 READ_RESULT = reader(RESULT).unpack_from
-STATUS, BEND_AT, BEYOND_AT, GAP_ERROR, _EDGES = (
-    _MEMBERS.index(name) for name in ("status", "bend", "beyond", "gap_error", "edges")
+STATUS, N_AT, BEND_AT, BEYOND_AT, GAP_ERROR, _EDGES = (
+    _MEMBERS.index(name) for name in ("status", "N", "bend", "beyond", "gap_error", "edges")
 )
 #: Attribute of a solution → its row in the kernel's fields.
 _FIELDS = {"x": Field.X, "p": Field.P, "qx": Field.QX, "qy": Field.QY, "sx": Field.SX, "sy": Field.SY}

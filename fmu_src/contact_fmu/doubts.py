@@ -32,6 +32,8 @@ _ROWS = {
     "pose.roll": "pose.roll",
     "pose.yaw": "pose.yaw",
 }
+#: Row of an answer → rule.
+_ANSWERS = {"force.n": "N", "wheel.Q": "N", "bend": "bend", "beyond": "beyond"}
 #: Rows of the slip of a wheel: 1 + first * third / second, of a wheel that moves.
 _SLIP = ("velocity.spin", "velocity.x", "wheel.radius")
 
@@ -54,9 +56,9 @@ def rules(table: Table) -> Iterator[Rule]:
             yield Rule((row,), USUAL[name])
     if pair and table.row[_SLIP[0]].is_given:
         yield Rule(_SLIP, USUAL["slip"])
-    for answer in ("bend", "beyond"):
-        if answer in table.row:
-            yield Rule((answer,), ANSWERS[answer])
+    for row, name in _ANSWERS.items():
+        if row in table.row:
+            yield Rule((row,), ANSWERS[name])
 
 
 def text(rule: Rule) -> str:

@@ -138,6 +138,17 @@ def test_an_answer_is_doubted_as_in_python(library, normal):
     assert fired["gap_error"] > 0 or normal == "strip_halfspace"
 
 
+@pytest.mark.parametrize(("deeper", "told"), [(1e-4, []), (1.5e-3, ["N"])])
+def test_a_wheel_that_lies_a_millimetre_inside_its_rail_is_doubted(library, deeper, told):
+    pair = Pair(library, profile.s1002(), profile.rail_60e1())
+    pair.input["height"], pair.input["amount"] = 2, 80e3
+    pair.solve()
+    pair.input["height"], pair.input["motion"]["z"] = 0, pair.answer["total"]["z"] + deeper
+    pair.solve()
+    doubts = texts(library, library.call("wr_pair_answer_doubts", pair.options, pair.answer))
+    assert [text.split(":")[0] for text in doubts] == told
+
+
 @pytest.mark.parametrize(("a_over_b", "told"), [(0.05, 1.0), (25.0, 0.0), (45.0, 1.0)])
 def test_a_patch_beyond_the_table_of_creep_forces_is_doubted(library, a_over_b, told):
     patch, result, held = Patch(library), np.zeros(1, RESULT), ellipse(a_over_b, 6e-3, 80e3)

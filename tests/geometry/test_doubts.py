@@ -50,6 +50,17 @@ def test_a_run_with_small_loads_warns_once(solver):
         assert [len(doubts(solver.solve, pose, load=500.0, friction=friction)) for _ in range(2)] == [1, 0]
 
 
+def test_a_wheel_that_lies_a_millimetre_inside_its_rail_is_doubted(solver):
+    z = solver.solve(Pose(), load=80e3).z
+    assert not doubts(solver.solve, Pose(z=z + 1e-4))
+    for told in (1, 0):  # once
+        said = doubts(solver.solve, Pose(z=z + 1.5e-3))
+        assert [str(one.message).partition(" = ")[0] for one in said] == ["Q"] * told
+    for entry in (contact.solve, contact.forces, contact.Solver().solve):
+        (said,) = doubts(entry, contact.Separation.hertzian(1.1, 0.8), (1e-3, 0.0, 0.0), approach=1.5e-3)
+        assert str(said.message).startswith("N = ")
+
+
 @pytest.mark.parametrize("of", [WheelRailPair, lambda pair: RollerRig(pair, 0.6)])
 def test_every_pair_doubts_load_friction_and_pose(of):
     pair = of(Pair(WHEEL, RAIL))
@@ -83,11 +94,23 @@ def test_every_entry_doubts_the_same_arguments(of, options, said):
     with pytest.warns(PlausibilityWarning, match=said) as found:
         entry(SEPARATION, **arguments, **throw)
     doubted = [each for each in found if each.category is PlausibilityWarning]
-    assert [each.filename for each in doubted] == [__file__]
+    assert {each.filename for each in doubted} == {__file__}
     if of == "Solver":
         assert not doubts(entry, SEPARATION, **arguments, **throw)  # a run in time is told once
     else:
         assert not doubts(entry, SEPARATION, (1e-3, 0.0, 0.0), load=80e3)
+
+
+def test_a_solver_doubts_every_call_and_each_argument_once():
+    solve, rolling = contact.Solver().solve, (1e-3, 0.0, 0.0)
+    each = [
+        {"load": 80e3},
+        {"load": 80.0},
+        {"load": 70.0},
+        {"load": 80e3, "speed": 300.0},
+        {"load": 80.0, "speed": 300.0},
+    ]
+    assert [len(doubts(solve, SEPARATION, rolling, **options)) for options in each] == [0, 1, 0, 1, 0]
 
 
 def test_arrays_are_doubted_once_with_the_place_and_the_number():
