@@ -84,3 +84,16 @@ def test_load_rises_with_the_approach(kind, normal):
     assert solved.sum() >= 36
     assert (np.diff(many.N[solved]) > 0).all()
     assert solve(kind, normal, approach=touch - 1e-6).status is contact.Status.NO_CONTACT, "lift-off"
+
+
+@pytest.mark.parametrize("tangential", contact.methods().batched.tangential)
+def test_without_creepage_or_friction_there_is_no_force(tangential):
+    separation, load = of_kind("a/b = 1")
+    given = {"load": load, "tangential": tangential}
+    resting = [contact.solve(separation, contact.Creepage(), **given)]
+    if TANGENTIAL[tangential].saturates:
+        resting.append(contact.solve(separation, contact.Creepage(1e-3, 1e-3, 1.0), friction=0.0, **given))
+    for sol in resting:
+        assert (sol.Fx, sol.Fy, sol.Mz) == (0.0, 0.0, 0.0)
+    assert resting[0].slip_ratio == 0.0
+    assert not TANGENTIAL[tangential].fields or resting[0].stick.all()

@@ -185,7 +185,7 @@ def test_scales_end_at_round_numbers(top, end):
 def test_matplotlib_is_loaded_by_contact_plot_alone_and_its_absence_names_the_extra():
     code = (
         "import sys, contact, contact.damage, contact.geometry\n"
-        "assert not {'matplotlib', 'typer', 'rich'} & set(sys.modules), 'the core loads an extra'\n"
+        "assert not {'matplotlib', 'typer', 'rich', 'xarray', 'PIL'} & set(sys.modules), 'the core loads an extra'\n"
         "sys.modules['matplotlib'] = None\n"
         "try:\n    import contact.plot\n"
         "except ImportError as error:\n    assert 'wheelrail-contact[plot]' in str(error), error\n"

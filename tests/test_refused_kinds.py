@@ -1,6 +1,7 @@
 """Arguments of a wrong kind are refused by name, and those of pairs without meaning, beside `test_refused_arguments.py`."""
 
 from collections.abc import Callable
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -12,7 +13,13 @@ from contact.geometry.flexible import WheelOffset
 from contact.geometry.surfaces import SurfacePair
 from contact.geometry.wheelset import Irregularity, Pair, Pose, Velocity
 from contact.pair import HalfspacePair, RollerRig, WheelRailPair, over_poses
+from contact_models.runs.scenario import Methods
+from contact_models.vehicle.course import lay
+from contact_models.vehicle.declared import read
+from contact_models.vehicle.simulation import Simulation
+from contact_models.vehicle.track import Track
 from tests.doors import CREEPAGE, ELLIPSE, PAIR, RAIL, WHEEL, rolled, solve, steel
+from tests.vehicle.parts import FAST, simulation
 
 
 def on_elements(velocity=None, **given):
@@ -21,6 +28,11 @@ def on_elements(velocity=None, **given):
 
 def on_profiles_that_may_change(pose=None, **given):
     return WheelRailPair(SurfacePair(WHEEL, RAIL), normal="analyn").solve(pose or Pose(), **{"load": None, **given})
+
+
+def shared(threads):
+    rows = lay(Track(), 5.0, lambda s: 15.0, (1,), 0.0)
+    return Simulation(read("wheelset"), rows, WHEEL, RAIL, 0.3, FAST, threads=threads)
 
 
 def driven(motion, **given):
@@ -82,6 +94,10 @@ REFUSED: list[tuple[Callable[[], Any], str]] = [
     (lambda: driven({"time": [0.0, 1.0]}, damping=1.0), "damping = 1.0 is not a contact.pair"),
     (lambda: profile.load(None, "rail"), "name = None is not a"),
     (lambda: profile.load("rail.txt", "rail", repair="no"), "repair = 'no' is neither True nor False"),
+    # the steps and the threads of a vehicle
+    *((lambda n=n: simulation(options=replace(FAST, pace=n)), rf"pace = {n} is outside .* \[1, 5\]") for n in (0, 6)),
+    *((lambda n=n: Methods(pace=n), f"pace = {n} is outside") for n in (0, 6)),
+    *((lambda n=n: shared(n), rf"threads = {n} is outside the allowed range \[1, 2\]") for n in (0, 3)),
 ]
 
 

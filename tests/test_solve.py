@@ -3,31 +3,11 @@
 import math
 
 import pytest
-from hypothesis import given, settings
-from hypothesis import strategies as st
 
 import contact
-from tests.post_conditions import FIELDS, assert_post_conditions
+from tests.post_conditions import FIELDS
 
 NORMAL, TANGENTIAL = list(contact.methods().batched.normal), list(contact.methods().batched.tangential)
-
-
-@settings(max_examples=60, deadline=None)
-@given(
-    ratio=st.floats(-1.5, 3.0),
-    load=st.floats(0.0, 5.4),
-    creep=st.tuples(*[st.floats(-8, 0)] * 2, st.floats(-6, 1)),
-    signs=st.tuples(*[st.sampled_from([-1.0, 0.0, 1.0])] * 3),
-    mu=st.floats(0.0, 0.8),
-    normal=st.sampled_from(NORMAL),
-    tangential=st.sampled_from(TANGENTIAL),
-)
-def test_post_conditions_over_physical_input(ratio, load, creep, signs, mu, normal, tangential):
-    separation = contact.Separation.hertzian(1.0, 10.0**ratio)
-    vx, vy, phi = (sign * 10.0**c for sign, c in zip(signs, creep, strict=True))
-    sol = contact.solve(separation, contact.Creepage(vx, vy, phi), load=10.0**load, friction=mu,
-                        normal=normal, tangential=tangential, throw=False)  # fmt: skip
-    assert_post_conditions(sol)
 
 
 def test_solution_has_the_fields_of_the_contract(ellipse):

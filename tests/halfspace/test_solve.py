@@ -61,16 +61,6 @@ def test_a_gap_on_a_grid_is_solved_as_the_separation_it_came_from(ellipse):
     assert by_gap.approach == pytest.approx(by_separation.approach, rel=1e-6)
 
 
-def test_resolution_does_not_ripple(ellipse):
-    """Forces on the default grid agree within 1 % of mu N with those on twice as many elements."""
-    for creepage in CREEPAGES:
-        one, two = (
-            contact.solve(ellipse, contact.Creepage(*creepage), load=8e4, n_strips=n, n_elements=n, **BOTH)
-            for n in (30, 60)
-        )
-        assert np.hypot(one.Fx - two.Fx, one.Fy - two.Fy) < 0.01 * 0.3 * 8e4
-
-
 def test_a_patch_at_the_end_of_the_data_is_out_of_range():
     y = np.linspace(-2e-3, 10e-3, 121)
     cut = contact.Separation(y, 2.0 * y**2, 1.0)

@@ -30,6 +30,10 @@ def written(folder: Path, text: str) -> Path:
         (LEAST + "sped = 3", r"case.toml.sped is unknown, did you mean 'speed'\?; allowed: name, length"),
         (LEAST.replace("20.0", '"fast"'), r"case.toml.speed = 'fast' is not a number or a table"),
         (LEAST.replace("20.0", "0.05"), r"case.toml: speed = 0.05 is outside the allowed range \[0.1, 150\]"),
+        (
+            LEAST.replace("20.0", "-20.0"),
+            r"case.toml: speed = -20 is outside the allowed range \[0.1, 150\].*Simulation",
+        ),
         (LEAST.replace("100.0", "10.0"), r"length = 10: nothing .* The first 30 m .* at least 30.25 m"),
         (LEAST + "seed = 1.5", r"case.toml.seed = 1.5 is not an integer"),
         (LEAST + "friction = -0.1", r"case.toml: friction = -0.1 is outside"),

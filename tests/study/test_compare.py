@@ -5,8 +5,6 @@ import io
 import json
 import math
 import re
-import subprocess
-import sys
 
 import numpy as np
 import pytest
@@ -181,11 +179,6 @@ def test_with_many_pairs_every_method_with_fields_is_drawn_once(monkeypatch):
 def test_files_that_cannot_be_written(small, tmp_path, name):
     with pytest.raises(contact.ContactError, match="cannot be written"):
         small.write(tmp_path / name)
-
-
-def test_import_of_contact_loads_no_picture_and_no_table_library():
-    code = "import contact, sys; print([m for m in ('matplotlib', 'rich', 'xarray', 'PIL') if m in sys.modules])"
-    assert subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True).stdout == "[]\n"
 
 
 def test_full_slip_leaves_no_stick():

@@ -7,6 +7,8 @@ from fmu_instance_fmi3 import Instance3
 from contact.inputs.plausibility import about_bend, about_beyond
 from contact.results import BEND, BEYOND
 
+#: An elliptic contact in the middle of the table of creep forces.
+LONG = {"geometry.A0": 1.1, "geometry.B0": 0.28, "load.normal_force": 8e4, "creepage.longitudinal": 1e-3}
 #: Inputs of a pair, and what is said of them.
 PAIR = [
     ({"velocity.x": 40.0}, "velocity.spin = -43.4783: the longitudinal creepage is too large: "),
@@ -39,18 +41,6 @@ def test_the_status_of_the_step_is_a_warning_and_the_next_one_is_ok(opened):
     assert [step(fmu.fmu.component, 1e-3 * k, 1e-3, 0) for k in range(2)] == [WARNING, 0]
 
 
-def test_a_bent_patch_that_strips_take_as_plane_is_told_once(opened):
-    fmu = opened("WheelRailPair")
-    fmu.initialize().step()
-    assert 0.0 < fmu["bend"] < BEND
-    fmu.update({"pose.y": 6.75e-3})
-    for _ in range(3):
-        fmu.step()
-    assert fmu["bend"] > BEND
-    (said,) = warned(fmu)
-    assert said == f"bend = {fmu['bend']:g}: {about_bend(BEND)}"
-
-
 def test_a_contact_doubts_its_own_values(opened):
     fmu = opened("EllipticContact")
     fmu.update({"load.normal_force": 80.0, "creepage.longitudinal": 0.5, "creepage.spin": 30.0, "speed": 200.0})
@@ -75,13 +65,21 @@ def test_fmi_3_says_the_same(native_fmi3_folder):
     instance.free()
 
 
-def test_a_patch_beyond_the_table_of_creep_forces_is_told_once(opened):
-    fmu = opened("EllipticContact")
-    fmu.update({"geometry.A0": 1.1, "geometry.B0": 0.28, "load.normal_force": 8e4, "creepage.longitudinal": 1e-3})
+@pytest.mark.parametrize(
+    ("name", "output", "before", "values", "least", "about"),
+    [
+        ("WheelRailPair", "bend", {}, {"pose.y": 6.75e-3}, BEND, about_bend(BEND)),
+        ("EllipticContact", "beyond", LONG, {"geometry.A0": 6.9, "geometry.B0": 0.0588}, 0.999, about_beyond(BEYOND)),
+    ],
+)
+def test_what_a_method_leaves_out_of_a_patch_is_told_once(opened, name, output, before, values, least, about):
+    """A bent patch that strips take as plane, and an ellipse with a/b = .05 beyond the table of creep forces."""
+    fmu = opened(name)
+    fmu.update(before)
     fmu.initialize().step()
-    assert fmu["beyond"] == 0.0
-    fmu.update({"geometry.A0": 6.9, "geometry.B0": 0.0588})  # a/b = .05
+    assert fmu[output] < min(least, BEND)
+    fmu.update(values)
     for _ in range(3):
         fmu.step()
-    assert fmu["beyond"] == pytest.approx(1.0, abs=1e-3)
-    assert warned(fmu) == [f"beyond = {fmu['beyond']:g}: {about_beyond(BEYOND)}"]
+    assert fmu[output] > least
+    assert warned(fmu) == [f"{output} = {fmu[output]:g}: {about}"]

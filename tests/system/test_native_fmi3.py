@@ -7,7 +7,7 @@ import fmpy
 import numpy as np
 import pytest
 from contact_case import NAME
-from contact_case_fmi3 import FIELDS, SHAPE, arrays, pose
+from contact_case_fmi3 import arrays, pose
 from fmpy.fmi1 import FMICallException
 from fmpy.fmi3 import FMU3Slave
 from fmu_instance import DISCARD, ERROR, recovers, refused
@@ -36,15 +36,6 @@ def by_row(values: dict) -> dict:
 
 
 # ---------------------------------------------------------------- the file
-
-
-def test_an_array_is_one_variable(native_fmi3):
-    variables = {v.name: v for v in fmpy.read_model_description(str(native_fmi3)).modelVariables}
-    assert variables["geometry.g"].shape == variables["geometry.A"].shape == (41,)
-    assert variables["creep_stiffness"].shape == (3, 3)
-    assert all(variables[name].shape == SHAPE for name in FIELDS)
-    assert variables["resolution.n_strips"].causality == "structuralParameter"
-    assert {v.type for v in variables.values()} == {"Float64", "Int64", "UInt64", "Boolean", "Enumeration"}
 
 
 def in_rows(result) -> dict[str, np.ndarray]:

@@ -233,15 +233,6 @@ def test_polach_has_a_lateral_force_from_spin_alone(ellipse):
 
 
 @pytest.mark.parametrize("law", LAWS)
-def test_no_friction_or_no_creepage_no_force(law, ellipse):
-    at_rest = solve(ellipse, tangential=law)
-    assert (at_rest.Fx, at_rest.Fy, at_rest.Mz, at_rest.slip_ratio) == (0.0,) * 4
-    if contact.methods().tangential[law].saturates:
-        sol = contact.solve(ellipse, contact.Creepage(1e-3, 1e-3, 1.0), load=N, friction=0.0, tangential=law)
-        assert (sol.Fx, sol.Fy, sol.Mz) == (0.0, 0.0, 0.0)
-
-
-@pytest.mark.parametrize("law", LAWS)
 def test_what_a_law_without_fields_leaves_out_is_an_error_that_says_so(law, ellipse):
     sol = solve(ellipse, 1e-3, 5e-4, 0.1, tangential=law)
     assert not sol.has_fields

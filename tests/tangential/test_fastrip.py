@@ -70,18 +70,6 @@ def test_full_slip_gives_mu_N_against_the_creepage(tangential, ellipse):
     assert sol.slip_ratio == pytest.approx(1.0, abs=1e-3)
 
 
-@pytest.mark.parametrize("tangential", TANGENTIAL)
-def test_no_friction_no_creepage_no_force(tangential, ellipse):
-    frictionless = contact.solve(
-        ellipse, contact.Creepage(1e-3, 1e-3, 1.0), load=N, friction=0.0, tangential=tangential
-    )
-    assert (frictionless.Fx, frictionless.Fy, frictionless.Mz) == (0.0, 0.0, 0.0)
-    at_rest = contact.solve(ellipse, contact.Creepage(), load=N, tangential=tangential)
-    assert (at_rest.Fx, at_rest.Fy, at_rest.Mz) == (0.0, 0.0, 0.0)
-    assert at_rest.slip_ratio == 0.0
-    assert at_rest.stick.all()
-
-
 def test_force_is_continuous_through_unit_spin_parameter(ellipse):
     """At |psi| = 1 the published method switches to full slip."""
     _, vy, phi, _ = scales(ellipse)

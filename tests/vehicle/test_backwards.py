@@ -12,7 +12,7 @@ from contact_models.vehicle.kernels.layout import Book, TrackRow
 from contact_models.vehicle.simulation import ContactOptions, Simulation
 from contact_models.vehicle.spectra import Irregularities
 from contact_models.vehicle.track import Curve, Track
-from tests.vehicle.parts import FAST, PACED, scenario
+from tests.vehicle.parts import FAST, PACED
 
 STEP = 4e-4
 LOW = Irregularities(spectrum="ERRI B176 low")
@@ -96,9 +96,3 @@ def test_over_wheels_that_are_not_round_a_vehicle_runs_forwards_only():
     uneven = {0: WheelSurface.constant(profile.s1002())}
     with pytest.raises(ContactError, match="speed: over wheels that are not round and rails of slices"):
         vehicle(rows, 5.0, uneven=uneven)
-
-
-@pytest.mark.parametrize("speed", [0.0, -20.0])
-def test_a_scenario_runs_forwards_and_says_what_runs_backwards(speed):
-    with pytest.raises(ContactError, match=r"speed = .* is outside the allowed range \[0.1, 150\].*Simulation"):
-        scenario(speed=speed)

@@ -1,12 +1,8 @@
 """Contacts between their solutions: agreement with a solution at every step, balance of energy, symmetry, threads."""
 
-import dataclasses
-
 import numpy as np
 import pytest
 
-from contact.errors import ContactError
-from contact_models.runs.scenario import Methods
 from contact_models.vehicle import linear
 from contact_models.vehicle.kernels.layout import Axis, Book
 from contact_models.vehicle.kernels.wheels import follow_wheel
@@ -110,14 +106,6 @@ def test_linear_analysis_solves_every_displaced_state():
         linear.state_matrix(simulation("wheelset", options=options), 1e-4, step=STEP) for options in (FAST, PACED)
     )
     np.testing.assert_array_equal(paced, exact)
-
-
-@pytest.mark.parametrize("pace", [0, 6])
-def test_pace_has_a_range(pace):
-    with pytest.raises(ContactError, match=rf"pace = {pace} is outside the allowed range \[1, 5\]"):
-        simulation("wheelset", options=dataclasses.replace(FAST, pace=pace))
-    with pytest.raises(ContactError, match=rf"pace = {pace} is outside"):
-        Methods(pace=pace)
 
 
 @pytest.mark.parametrize("options", [FAST, ContactOptions(pace=1)])

@@ -48,9 +48,3 @@ def test_a_wheel_that_leaves_its_rail_ends_all_threads_with_the_same_message():
             run.advance(STEP, 10)
         said.append(str(error.value))
     assert said[0] == said[1]
-
-
-@pytest.mark.parametrize("threads", [0, 9])
-def test_number_of_threads_has_a_range(threads):
-    with pytest.raises(ContactError, match=rf"threads = {threads} is outside the allowed range \[1, 8\]"):
-        shared(threads)
