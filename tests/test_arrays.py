@@ -159,14 +159,10 @@ def test_points_whose_shapes_do_not_broadcast_are_refused():
 
 #: Conversions of what is no array of a user.
 OWN = (
-    "contact/arrays.py",  # the converter
-    "contact/reading/columns.py",  # rows that a reader has made
-    "contact/view/notebook.py",  # what is drawn
-    "contact/accumulation/histogram.py",  # of its own sums
-    "contact/halfspace/bent.py",
-    "contact/halfspace/step.py",
-    "models/contact_models/wheelset/fmu.py",  # what an FMU has returned
-)
+    "contact/arrays.py", "contact/reading/columns.py", "contact/view/notebook.py",
+    "contact/accumulation/histogram.py", "contact/halfspace/bent.py", "contact/halfspace/step.py",
+    "models/contact_models/wheelset/fmu.py",
+)  # fmt: skip
 
 
 def test_arrays_of_users_have_one_way_in():

@@ -162,11 +162,6 @@ def test_json_has_version_command_inputs_and_units():
     }
     assert {name: answer["inputs"][name] for name in given} == given
     wanted = {
-        "load": "N",
-        "curvatures": "1/m",
-        "creepage": "1, 1, 1/m",
-        "max_pressure": "Pa",
-        "Mz": "N m",
-        "area": "m²",
-    }
+        "load": "N", "curvatures": "1/m", "creepage": "1, 1, 1/m", "max_pressure": "Pa", "Mz": "N m", "area": "m²",
+    }  # fmt: skip
     assert {name: answer["units"][name] for name in wanted} == wanted

@@ -28,17 +28,9 @@ COUNTS = ["n_patches", "patches", "patch", "points", "resolution", "reference_el
 ROTATION = {"rail": ("spin",), "roller": ("spin",), "in-time": ("spin",), "along": ("spin",)}
 #: What is written in a help text → the unit in JSON.
 TOLD = {
-    "m": "m",
-    "m/s": "m/s",
-    "rad": "rad",
-    "rad/s": "rad/s",
-    "N": "N",
-    "N m": "N m",
-    "N/m": "N/m",
-    "Pa": "Pa",
-    "K": "K",
-    "1/m": "1/m",
-}
+    "m": "m", "m/s": "m/s", "rad": "rad", "rad/s": "rad/s", "N": "N", "N m": "N m", "N/m": "N/m", "Pa": "Pa",
+    "K": "K", "1/m": "1/m",
+}  # fmt: skip
 
 
 def unit_of(units, path):

@@ -27,13 +27,9 @@ FRICTION = {
 THERMAL = {"conductivity": 45.0, "density": 7900.0, "heat_capacity": 470.0, "heat_share": 0.5}
 METHODS = {"normal": "analyn", "tangential": "fastrip", "strips": 24, "elements": 16, "pressure_limit": 2e9, "pace": 2}
 ROW = {
-    "normal": "method.normal",
-    "tangential": "method.tangential",
-    "strips": "resolution.n_strips",
-    "elements": "resolution.n_elements",
-    "pressure_limit": "material.pressure_limit",
-    "pace": "resolution.pace",
-}
+    "normal": "method.normal", "tangential": "method.tangential", "strips": "resolution.n_strips",
+    "elements": "resolution.n_elements", "pressure_limit": "material.pressure_limit", "pace": "resolution.pace",
+}  # fmt: skip
 HEAD = 'name = "s"\nvehicle = "{}"\nlength = 100.0\nspeed = 20.0\n'
 
 

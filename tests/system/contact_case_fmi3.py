@@ -8,16 +8,9 @@ from contact.kernels.records import MAX_PATCHES
 SHAPE = (MAX_PATCHES, N_STRIPS.usual, N_ELEMENTS.usual)
 
 FIELDS = {
-    "field.x": "x",
-    "field.y": "y",
-    "field.area": "dA",
-    "field.pressure": "p",
-    "field.traction_x": "qx",
-    "field.traction_y": "qy",
-    "field.slip_x": "sx",
-    "field.slip_y": "sy",
-    "field.stick": "stick",
-}
+    "field.x": "x", "field.y": "y", "field.area": "dA", "field.pressure": "p", "field.traction_x": "qx",
+    "field.traction_y": "qy", "field.slip_x": "sx", "field.slip_y": "sy", "field.stick": "stick",
+}  # fmt: skip
 
 
 def pose(fmu):

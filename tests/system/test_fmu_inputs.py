@@ -84,14 +84,9 @@ def test_a_small_negative_load_is_no_load_and_a_large_one_a_wrong_sign(make, nam
         outputs = fmu.all("output")
         assert outputs["status_real"] == Status.NO_CONTACT
         left = (
-            "status_real",
-            "approach",
-            "wheelset.z",
-            "total.distance",
-            "total.energy",
-            "total.worn_volume",
+            "status_real", "approach", "wheelset.z", "total.distance", "total.energy", "total.worn_volume",
             "total.T_gamma",
-        )
+        )  # fmt: skip
         assert not any(value for name, value in outputs.items() if name not in left)
         assert load or not fmu.log
     fmu.update({"load.normal_force": -80e3})

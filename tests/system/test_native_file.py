@@ -43,23 +43,13 @@ def test_what_is_linked_in_is_listed_with_its_licence(native_folder):
 #: Functions of libc and libm that a library may ask its system for.
 C_LIBRARY = {
     *(
-        "bcmp",
-        "calloc",
-        "fclose",
-        "fopen",
-        "fread",
-        "free",
-        "malloc",
-        "memchr",
-        "memcmp",
-        "memcpy",
-        "memmove",
+        "bcmp", "calloc", "fclose", "fopen", "fread", "free", "malloc", "memchr", "memcmp", "memcpy", "memmove",
         "memset",
     ),
     *("realloc", "sched_yield", "snprintf", "strchr", "strcmp", "strcpy", "strlen", "strtod", "strncmp", "strncpy"),
     *("acos", "asin", "asinh", "atan", "atan2", "atanh", "cos", "exp", "expm1", "hypot", "log", "pow", "sin", "sincos"),
     *("sqrt", "tan", "vsnprintf"),
-}
+}  # fmt: skip
 
 
 @pytest.mark.parametrize("name", [NAME, PAIR, "Wheelset"])

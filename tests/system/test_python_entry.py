@@ -20,19 +20,8 @@ from contact_fmu.native.headers import HEADERS
 from contact_fmu.python import entry
 
 FOLDERS = [
-    "plain",
-    "with blank",
-    "Müller",
-    "日本",
-    "100%",
-    "a+b",
-    "it's",
-    "no#1",
-    "a%20b",
-    "q?x",
-    "ümläut %41 ✓",
-    "&;$(x)",
-]
+    "plain", "with blank", "Müller", "日本", "100%", "a+b", "it's", "no#1", "a%20b", "q?x", "ümläut %41 ✓", "&;$(x)",
+]  # fmt: skip
 #: A host in Python that unzips into each folder and does one step. What it prints last is where it died.
 CHILD = """
 import sys, fmpy

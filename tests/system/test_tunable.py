@@ -13,15 +13,10 @@ METHODS = {name: value for name, value in THESIS.items() if name.startswith("met
 CREEP = {"creepage.longitudinal": 2e-3, "creepage.lateral": -1e-3, **METHODS}
 #: Other values than at the start, one of each group, so that all of them change the forces.
 TUNED = {
-    "friction.law": 3,
-    "friction.kinetic": 0.1,
-    "friction.half_speed": 0.01,
-    "friction.hot_factor": 0.6,
-    "thermal.conductivity": 20.0,
-    "material.shear_modulus": 6e10,
-    "material.poisson_ratio": 0.25,
+    "friction.law": 3, "friction.kinetic": 0.1, "friction.half_speed": 0.01, "friction.hot_factor": 0.6,
+    "thermal.conductivity": 20.0, "material.shear_modulus": 6e10, "material.poisson_ratio": 0.25,
     "material.pressure_limit": 8e8,
-}
+}  # fmt: skip
 GROUPS = {"friction", "material", "thermal"}
 
 
