@@ -104,21 +104,6 @@ def test_the_mirror_image_has_the_mirrored_forces(tangential):
     assert other.power_per_metre == pytest.approx(one.power_per_metre, rel=1e-6)
 
 
-def test_a_batch_equals_separate_solutions():
-    """Separations with and without tilt agree bit for bit in a batch and in `contact.solve`. The plane stays the default."""
-    separations = [bent(0.05 + 20.0 * Y), bent(0.0), bent(-0.1, rolling=0.5)]
-    creepage = ([1e-3, 2e-3, 0.0], -1e-3, 0.3)
-    many = contact.forces(separations, creepage, load=8e4, conformal=True)
-    plane = contact.forces(separations, creepage, load=8e4)
-    for k, separation in enumerate(separations):
-        for found, conformal in ((many, True), (plane, False)):
-            creep = contact.Creepage(creepage[0][k], -1e-3, 0.3)
-            one = contact.solve(separation, creep, load=8e4, conformal=conformal)
-            row = (found.Fx[k], found.Fy[k], found.Mz[k], found.power_per_metre[k])
-            assert row == (one.Fx, one.Fy, one.Mz, one.power_per_metre)
-    assert abs(many.Fy[0] - plane.Fy[0]) > 500.0
-
-
 @pytest.mark.parametrize("options", HALF_SPACE)
 def test_the_half_space_pushes_sideways_and_bears_the_longer_surface(options):
     rough = contact.solve(bent(0.2), contact.Creepage(0.3), load=8e4, conformal=True, spacing=1e-3, **options)

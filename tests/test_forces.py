@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 import contact
+from contact.friction import Friction
 from reference import random_cases
 
 NAMES = ("Fx", "Fy", "Mz", "N", "approach", "max_pressure", "area", "slip_ratio", "power_per_metre", "status")
@@ -22,6 +23,30 @@ def test_equals_solve_case_by_case(normal, tangential, ellipse):
             )
             for name in NAMES:
                 assert getattr(many, name)[i, k] == getattr(one, name), name
+
+
+Y = np.linspace(-15e-3, 15e-3, 121)
+OPTIONS = {
+    "bent": {"conformal": True},
+    "gauge face": {"friction": Friction(0.4, 0.2, 0.1, "linear", velocity="local", gauge_factor=0.25, border=-1e-3)},
+    "hot": {"friction": Friction(0.3, hot_factor=0.4, temperature_range=400.0), "speed": 30.0},
+    "plastic": {"material": contact.Material(70e9, 0.3, pressure_limit=6e8)},
+}
+
+
+@pytest.mark.parametrize("tangential", [n for n, m in contact.methods().batched.tangential.items() if m.fields])
+@pytest.mark.parametrize("name", OPTIONS)
+def test_every_option_means_the_same_in_a_batch_in_solve_and_in_a_solver(name, tangential):
+    """Bit for bit, and not what it is without the option; on separations with and without tilt."""
+    options, creepage = OPTIONS[name] | {"tangential": tangential}, contact.Creepage(5e-3, -1e-3, 0.3)
+    gaps = [contact.Separation(Y, 2.0 * Y**2, 1.1, 0.02 * Y, tilt, 1.0 / 0.46) for tilt in (0.05 + 20.0 * Y, 0.0)]
+    many, solver = contact.forces(gaps, creepage, load=8e4, **options), contact.Solver(**options)
+    plain = contact.solve(gaps[0], creepage, load=8e4, tangential=tangential)
+    for k, gap in enumerate(gaps):
+        one, prepared = contact.solve(gap, creepage, load=8e4, **options), solver.forces(gap, creepage, load=8e4)
+        for result in NAMES:
+            assert getattr(many, result)[k] == getattr(one, result) == getattr(prepared, result), result
+    assert abs(many.Fy[0] - plain.Fy) > 1.0
 
 
 def test_answer_does_not_depend_on_the_number_of_threads(ellipse):

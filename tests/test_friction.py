@@ -262,11 +262,3 @@ def test_a_border_far_away_leaves_one_coefficient(tangential):
         one = solve(creepage, tangential=tangential, friction=dataclasses.replace(sided(), border=border))
         other = solve(creepage, tangential=tangential, friction=coefficient)
         np.testing.assert_allclose((one.Fx, one.Fy, one.Mz), (other.Fx, other.Fy, other.Mz), rtol=1e-12)
-
-
-def test_batches_and_local_laws_apply_the_gauge_factor():
-    friction = sided(kinetic=0.2, law="linear", half_speed=0.1, velocity="local")
-    one = solve((1e-3, 5e-4, 0.3), friction=friction)
-    many = contact.forces(SEPARATION, (1e-3, 5e-4, 0.3), load=8e4, friction=friction)
-    assert float(many.Fx) == one.Fx
-    assert abs(one.Fx) < abs(solve((1e-3, 5e-4, 0.3), friction=dataclasses.replace(friction, gauge_factor=1.0)).Fx)

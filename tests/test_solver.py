@@ -85,24 +85,6 @@ def test_results_equal_solve_bit_for_bit_after_any_other_calls(normal, tangentia
             assert getattr(forces, each.name) == getattr(expected, each.name), each.name
 
 
-def test_a_bent_surface_is_solved_as_by_solve():
-    y = np.linspace(-0.02, 0.02, 81)
-    bent = contact.Separation(y, 2.0 * y**2, 1.1, tilt=8.0 * y, rolling=2.0)
-    solver = prepared(conformal=True)
-    expected = contact.solve(bent, CALLS[0][1], load=60e3, conformal=True, **SMALL)
-    assert_same_bits(solver.solve(bent, CALLS[0][1], load=60e3), expected)
-    assert solver.forces(bent, CALLS[0][1], load=60e3).Fy == expected.Fy
-    assert expected.pressure_y != 0.0 or expected.Fy != contact.solve(bent, CALLS[0][1], load=60e3, **SMALL).Fy
-
-
-def test_material_and_friction_are_those_of_solve():
-    soft = contact.Material(70e9, 0.3, pressure_limit=8e8)
-    wet = Friction.polach(0.3, 0.4, 0.2)
-    solver = prepared(material=soft, friction=wet)
-    expected = contact.solve(ELLIPSE, CALLS[0][1], load=60e3, material=soft, friction=wet, **SMALL)
-    assert_same_bits(solver.solve(ELLIPSE, CALLS[0][1], load=60e3), expected)
-
-
 def test_friction_and_speed_of_a_call_stay_for_later_calls():
     solver, (separation, creepage, amount) = prepared(), CALLS[4]
     falling = Friction.polach()

@@ -48,19 +48,6 @@ def test_the_fields_add_up_to_the_resultants_and_to_the_power(tangential, share)
 
 
 @pytest.mark.parametrize("tangential", WITH_FIELDS)
-def test_the_batch_and_a_prepared_solver_give_the_same_forces(tangential):
-    creepage = contact.Creepage(1e-3, 5e-4, 0.2)
-    sol = solved(creepage, 0.6, tangential)
-    material = dataclasses.replace(contact.STEEL, pressure_limit=0.6 * peak())
-    batch = contact.forces(SEPARATION, creepage, load=LOAD, friction=MU, material=material, tangential=tangential)
-    assert (float(batch.Fx), float(batch.Fy), float(batch.Mz)) == (sol.Fx, sol.Fy, sol.Mz)
-    found = contact.Solver(tangential=tangential, friction=MU, material=material).forces(
-        SEPARATION, creepage, load=LOAD
-    )
-    assert (found.Fx, found.Fy, found.Mz) == (sol.Fx, sol.Fy, sol.Mz)
-
-
-@pytest.mark.parametrize("tangential", WITH_FIELDS)
 def test_nothing_jumps_where_the_limit_begins(tangential):
     creepage = contact.Creepage(1e-3, 5e-4, 0.2)
     elastic, limited = solved(creepage, 1.0, tangential), solved(creepage, 1.0 - 1e-6, tangential)

@@ -85,13 +85,13 @@ def test_critical_speed_of_cones_is_that_of_the_linear_theory():
 @pytest.fixture(scope="module")
 def hunting() -> master.History:
     """S1002 on 60E1 above the critical speed, as Python objects."""
-    return coupled(scenario(32.0), 5e-3, 2e-4, 3.0)
+    return coupled(scenario(32.0), 5e-3, 2e-4, 1.2)
 
 
 def test_growth_ends_in_a_bounded_limit_cycle_with_flange_contact(hunting):
     time, y = hunting["time"], hunting["pose.y"]
-    assert amplitude(time, y, 2.0, 3.0) > 1.1 * 5e-3
-    assert amplitude(time, y, 2.0, 2.5) == pytest.approx(amplitude(time, y, 2.5, 3.0), rel=0.1)
+    assert amplitude(time, y, 0.6, 0.9) > 1.3 * 5e-3
+    assert amplitude(time, y, 0.6, 0.9) == pytest.approx(amplitude(time, y, 0.9, 1.2), rel=0.01)
     # both wheels reach the flange root in turn
     assert hunting["right.angle"].min() < math.radians(-25.0)
     assert hunting["left.angle"].max() > math.radians(25.0)
@@ -107,7 +107,7 @@ def test_growth_ends_in_a_bounded_limit_cycle_with_flange_contact(hunting):
 def test_friction_takes_the_energy_that_leaves_wheelset_and_rails(hunting):
     """They agree within 1 % in a limit cycle with flange contact. Stored elastic energy is included."""
     dissipated = float(hunting.creep_power.sum() * hunting.step)
-    assert dissipated > 500.0
+    assert dissipated > 200.0
     assert np.abs(hunting.power_residual).max() < 0.01 * dissipated
     # the power of the slip fields of the contacts is that of forces and creepages
     assert float(hunting.friction_power.sum() * hunting.step) == pytest.approx(dissipated, rel=0.02)

@@ -9,7 +9,7 @@ import pytest
 from contact.errors import ContactError
 from contact.friction import Friction
 from contact.geometry import profile
-from contact_models.runs import checkpoint, report, result
+from contact_models.runs import checkpoint, kept, report, result, stability
 from contact_models.runs.run import VehicleRun
 from contact_models.runs.scenario import Methods, Recording
 from contact_models.runs.scenario import read as read_scenario
@@ -130,7 +130,9 @@ def test_report_has_no_nan_and_names_the_limits(whole):
     assert "contact run --critical-speed" in text  # not found unless asked for
 
 
-def test_report_draws_the_vehicle_with_a_number_for_each_force_element():
+def test_report_draws_the_vehicle_with_a_number_for_each_force_element(monkeypatch, tmp_path):
+    monkeypatch.setattr(kept, "cache_folder", lambda: tmp_path)  # where the speed below is kept
+    monkeypatch.setattr(stability.linear, "critical_speed", lambda *_, **__: 24.2)  # half a minute
     text = "".join(report._vehicle(VehicleRun(scenario(vehicle="manchester"))))
     for k, joint in enumerate(drawing.joints_of(read("manchester")), 1):
         assert f">{k}: {type(joint).__name__.lower()}<" in text
@@ -138,7 +140,7 @@ def test_report_draws_the_vehicle_with_a_number_for_each_force_element():
     assert "body, 32 t" in text
     assert "k 160, 160, 430 kN/m; c 0, 32, 20 kN s/m" in text
     assert "depends on the amplitude: 0.354 at 1 mm and 0.174 at 3 mm" in text
-    assert "Linear critical speed" in text
+    assert "Linear critical speed 24" in text
     assert "body roll" in text
 
 
