@@ -4,6 +4,7 @@ The methods follow M. Sh. Sichani, "On Efficient Modelling of Wheel-Rail Contact
 2016. All quantities are in SI units. Forces act on the wheel. Start with `solve`.
 """
 
+from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 from contact.citation import cite
@@ -67,10 +68,19 @@ def _figures() -> Any:
 draw_with(_figures)
 
 
-def __getattr__(name: str) -> Any:
-    """Import the comparison classes on first access. A simulation does not need them."""
-    if name not in ("Case", "Comparison", "compare"):
-        raise AttributeError(f"module 'contact' has no attribute {name!r}")
-    from contact import study
+#: Packages that load when they are first used, and those whose classes are looked for here.
+_PACKAGES = ("accumulation", "geometry", "inp", "pair", "plot", "stress", "study")
+_WITH_CLASSES = ("pair", "geometry.profile", "geometry.wheelset", "geometry.surfaces", "damage", "friction")
 
-    return getattr(study, name)
+
+def __getattr__(name: str) -> Any:
+    """Import packages and the comparison classes on first access. A simulation does not need them."""
+    if name in _PACKAGES:
+        return import_module(f"contact.{name}")
+    if name in ("Case", "Comparison", "compare"):
+        return getattr(import_module("contact.study"), name)
+    hint = ""
+    if name[:1].isupper():
+        places = (f"contact.{package}" for package in _WITH_CLASSES)
+        hint = next((f"; it is {place}.{name}" for place in places if hasattr(import_module(place), name)), "")
+    raise AttributeError(f"module 'contact' has no attribute {name!r}{hint}")

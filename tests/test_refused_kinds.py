@@ -1,5 +1,7 @@
 """Arguments of a wrong kind are refused by name, and those of pairs without meaning, beside `test_refused_arguments.py`."""
 
+import subprocess
+import sys
 from collections.abc import Callable
 from dataclasses import replace
 from typing import Any
@@ -105,3 +107,20 @@ REFUSED: list[tuple[Callable[[], Any], str]] = [
 def test_an_argument_of_a_wrong_kind_is_refused_by_name(call, message):
     with pytest.raises(contact.ContactError, match=message):
         call()
+
+
+@pytest.mark.parametrize(
+    ("name", "place"), [("WheelRailPair", "contact.pair"), ("Pose", "contact.geometry.wheelset"), ("Nonsense", "")]
+)
+def test_a_class_of_a_package_is_found_by_the_message(name, place):
+    with pytest.raises(AttributeError) as said:
+        getattr(contact, name)
+    assert str(said.value) == f"module 'contact' has no attribute {name!r}" + (
+        f"; it is {place}.{name}" if place else ""
+    )
+
+
+def test_packages_load_when_they_are_first_used():
+    code = "import contact; print(contact.pair.WheelRailPair.__name__, contact.geometry.profile.s1002().kind)"
+    ran = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert ran.stdout.split() == ["WheelRailPair", "wheel"]
