@@ -15,7 +15,6 @@ from dataclasses import dataclass, field, replace
 from enum import StrEnum
 from itertools import product
 
-from contact.arrays import Array
 from contact.errors import require_number
 from contact.kernels.records import MEANING
 from contact.view.units import stated
@@ -255,16 +254,6 @@ class Table:
         """Return name → member of `record` of the rows that a host gives, or of those that it reads."""
         split = ((row, *row.member.partition(".")) for row in self.rows if row.is_given is given)
         return {row.name: member for row, of, _, member in split if of == record}
-
-    def uses(self, row: Variable, values: Array) -> bool:
-        """Return whether a parameter or input has any effect, given the values of all scalars."""
-        return all(self._item(of, values) in items for of, items in row.used.items())
-
-    def _item(self, name: str, values: Array) -> str:
-        """Return the name of the item of an enumeration."""
-        enumeration = self.row[name].enumeration
-        assert enumeration is not None
-        return enumeration.item(int(values[self.span[name].start]))
 
     @property
     def structural(self) -> frozenset[str]:

@@ -1,65 +1,47 @@
-"""The table-driven slave, called as pythonfmu calls it, with a model of one line."""
+"""The slave, called as pythonfmu calls it: it passes calls on to the functions of the native FMU, and says what these say."""
 
 import math
 import sys
 
-import numpy as np
 import pytest
 from pythonfmu.enums import Fmi2Status
 
 from contact_fmu.description import model_description
-from contact_fmu.native.component import Component
-from contact_fmu.python.slave import INTERFACES, TableSlave
-from contact_fmu.rows import output, parameter, signal
-from contact_fmu.variables import Enumeration, Table
+from contact_fmu.native.components import contact
+from contact_fmu.native.table import NAME, content
+from contact_fmu.python import slave as module
+from contact_fmu.python.slave import INTERFACES, ModelSlave
 
-TABLE = Table(
-    "Quotient",
-    "A quotient, for tests",
-    [
-        parameter(
-            "mode", "What to do", enumeration=Enumeration("Mode", (("Divide", ""), ("Fail", ""))), start="Divide"
-        ),
-        signal("x", "Dividend", unit="m", start=(1.0, 2.0), shape=(2,), maximum=100.0),
-        signal("y", "Divisor", unit="m", start=4.0, minimum=0.0),
-        output("q", "Quotient", shape=(2,)),
-        output("steps", "Number of steps", start=0, integer=True),
-        output("slow", "Twice the first quotient"),
-    ],
-    step_size=0.1,
-)
-MODE, MODE_INTEGER, X1, X2, Y, Q1, Q2, STEPS, STEPS_REAL, SLOW = range(10)
+COMPONENT = contact(41, elliptic=True)
+AT = {name: span.start for name, span in COMPONENT.table.span.items()}
+LATERAL, FORCE, COUNT = (AT[name] for name in ("creepage.lateral", "force.y", "patch.count"))
+GUID = model_description(COMPONENT.table, INTERFACES)[0]
 
 
-COMPONENT = Component(kind="none", table=TABLE, lazy=("slow",), failures={3: "y = 3 is not to our taste"})
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory):
+    """Return resources below a name that has to be quoted in a URI."""
+    made = tmp_path_factory.mktemp("a b ü%41")
+    (made / NAME).write_bytes(content(COMPONENT, GUID))
+    return made
 
 
-class Model:
-    """Stands for an `Instance`."""
-
-    def __init__(self, component, folder):
-        self.memory, self.calls = np.zeros((2, 1)), 0
-
-    def solve(self, values, h):
-        if values[MODE] == 2:
-            raise ZeroDivisionError("as asked")
-        y = values[Y]
-        values[[Q1, Q2]] = values[[X1, X2]] / y if y else math.inf
-        values[STEPS] += h > 0.0
-        return int(y == 3.0) * 3
-
-    def accept(self, values, h):
-        pass
-
-    def solve_lazy(self, values):
-        self.calls += 1
-        values[SLOW] = 2.0 * values[X1] / values[Y]
+@pytest.fixture
+def made(folder):
+    """Return a function that makes a slave."""
+    return lambda: ModelSlave(
+        "contact", {"points": 41, "elliptic": True}, GUID, instance_name="q", resources=str(folder)
+    )
 
 
-class Quotient(TableSlave):
-    def __init__(self):
-        guid = model_description(TABLE, INTERFACES)[0]
-        super().__init__(COMPONENT, guid, Model, instance_name="q", resources="/nowhere")
+@pytest.fixture
+def slave(made):
+    slave = made()
+    slave.setup_experiment(0.0, 10.0, None)
+    slave.enter_initialization_mode()
+    slave.exit_initialization_mode()
+    assert not slave.log_queue
+    return slave
 
 
 def messages(slave, status):
@@ -68,157 +50,102 @@ def messages(slave, status):
     return found
 
 
-@pytest.fixture
-def slave():
-    slave = Quotient()
-    slave.setup_experiment(0.0, 10.0, None)
-    slave.enter_initialization_mode()
-    slave.exit_initialization_mode()
+def test_a_step_follows_the_inputs(slave):
+    slave.set_real([LATERAL], [-1e-3])
+    assert slave.get_real([FORCE]) == [0.0]
+    assert slave.do_step(0.0, 0.1) is True
+    (force,), count = slave.get_real([FORCE]), slave.get_integer([COUNT])
+    assert force > 1e3
+    assert (type(force), count, type(count[0])) == (float, [1], int)
+    slave.terminate()
     assert not slave.log_queue
-    return slave
 
 
-def test_outputs_follow_the_inputs_during_initialisation():
-    slave = Quotient()
-    slave.enter_initialization_mode()
-    assert slave.get_real([Q1, Q2]) == [0.25, 0.5]
-    slave.set_real([X1, Y], [3.0, 2.0])
-    assert slave.get_real([Q1, Q2]) == [1.5, 1.0]
-    slave.exit_initialization_mode()
-    assert slave.get_integer([STEPS]) == [0]
-
-
-def test_outputs_change_only_with_a_step_afterwards(slave):
-    slave.set_real([X1], [8.0])
-    assert slave.get_real([Q1]) == [0.25]
-    assert slave.do_step(0.0, 0.1) is True
-    assert (slave.get_real([Q1]), slave.get_integer([STEPS])) == ([2.0], [1])
-
-
-@pytest.mark.parametrize(
-    ("reference", "value", "message"),
-    [
-        (X2, math.nan, "x[2] = nan is outside the allowed range ]-inf, 100]"),
-        (Y, 0.0, "q[1] has no finite value for these inputs"),
-        (Y, 3.0, "y = 3 is not to our taste"),
-    ],
-)
-def test_a_bad_input_discards_the_step_and_keeps_the_outputs(slave, reference, value, message):
-    start = slave.get_real([reference])
-    slave.set_real([reference], [value])
+def test_a_bad_input_is_a_discard_and_a_refused_call_an_error_with_the_words_of_the_native_fmu(slave):
+    slave.set_real([LATERAL], [math.nan])
     assert slave.do_step(0.0, 0.1) is False
-    assert messages(slave, Fmi2Status.discard) == [message]
-    assert (slave.get_real([Q1, Q2]), slave.get_integer([STEPS])) == ([0.25, 0.5], [0])
-    slave.set_real([reference], start)
-    assert slave.do_step(0.0, 0.1) is True
-
-
-def test_the_last_step_may_end_at_the_stop_time_but_for_rounding(slave):
-    assert slave.do_step(0.0, 10.0 + 1e-12) is True
-
-
-def test_a_step_before_initialisation_is_an_error():
-    slave = Quotient()
-    assert slave.do_step(0.0, 0.1) is False
-    assert messages(slave, Fmi2Status.error) == ["doStep is not allowed before initialisation; the call is ignored"]
-
-
-def test_reading_before_initialisation_is_an_error():
-    """Outputs are 0 then, which a host would take for an answer; native FMUs refuse it too."""
-    slave = Quotient()
-    slave.get_real([Q1])
+    assert messages(slave, Fmi2Status.discard) == [
+        "creepage.lateral = nan is outside the allowed range [-1e+06, 1e+06]"
+    ]
+    assert slave.do_step(math.nan, 0.1) is False
+    assert slave.get_real([FORCE, 10**6]) == [0.0, 0.0]
+    assert slave.get_string([LATERAL]) == [""]
+    slave.set_integer([AT["method.normal"]], [1])
+    slave.set_boolean([LATERAL], [True])
+    slave.set_string([LATERAL], ["a"])
     assert messages(slave, Fmi2Status.error) == [
-        "q[1] cannot be read as Real before initialisation; the call is ignored"
+        "currentCommunicationPoint = nan is not finite",
+        "fmi2GetReal: there is no value reference 1000000",
+        "creepage.lateral is not a variable for fmi2GetString now",
+        "method.normal is not a variable for fmi2SetInteger now",
+        "creepage.lateral is not a variable for fmi2SetBoolean now",
+        "creepage.lateral is not a variable for fmi2SetString now",
     ]
 
 
-@pytest.mark.parametrize(("start", "stop"), [(math.nan, None), (math.inf, None), (0.0, math.nan), (1.0, 0.0)])
-def test_a_start_or_a_stop_without_meaning_is_an_error(start, stop):
-    slave = Quotient()
+def test_an_unusual_input_is_a_warning(slave):
+    slave.set_real([LATERAL], [0.9])
+    assert slave.do_step(0.0, 0.1) is True
+    assert messages(slave, Fmi2Status.warning)[0].startswith("creepage.lateral = 0.9: ")
+
+
+def test_reading_nothing_before_initialisation_says_nothing(made):
+    """`entry.c` does so as soon as there is an instance."""
+    slave = made()
+    assert slave.get_real([]) == []
+    assert not slave.log_queue
+    assert slave.get_real([FORCE]) == [0.0]
+    assert messages(slave, Fmi2Status.error)
+
+
+@pytest.mark.parametrize(("start", "stop"), [(math.nan, None), (0.0, math.nan), (1.0, 0.0)])
+def test_a_start_or_a_stop_without_meaning_is_an_error(made, start, stop):
+    slave = made()
     slave.setup_experiment(start, stop, None)
     assert messages(slave, Fmi2Status.error)[0].endswith("allowed: numbers, the stop not before it")
 
 
-def test_no_exception_of_the_model_escapes():
-    slave = Quotient()
-    slave.set_integer([MODE], [2])
-    slave.enter_initialization_mode()
-    assert slave.exit_initialization_mode() is False
-    assert messages(slave, Fmi2Status.error) == ["exit_initialization_mode: ZeroDivisionError: as asked"]
-
-
-def test_a_variable_that_cannot_be_set_is_refused_by_name(slave):
-    slave.set_integer([MODE], [2])
-    slave.set_real([Q1, 99], [7.0, 7.0])
-    slave.set_boolean([X1], [True])
-    assert messages(slave, Fmi2Status.error) == [
-        "mode cannot be set as Integer or Enumeration after initialisation; the call is ignored",
-        "q[1] cannot be set as Real after initialisation; the call is ignored",
-        "value reference 99 cannot be set as Real after initialisation; the call is ignored",
-        "x[1] cannot be set as Boolean or String after initialisation; the call is ignored",
-    ]
-    assert slave.get_integer([MODE]) == [1]
-
-
-def test_a_variable_that_cannot_be_read_is_refused_by_name(slave):
-    assert slave.get_real([STEPS, Q1, -1]) == [0, 0.25, 0]
-    assert slave.get_string([X1]) == [""]
-    assert [m.split(";")[0] for m in messages(slave, Fmi2Status.error)] == [
-        "steps cannot be read as Real after initialisation",
-        "value reference -1 cannot be read as Real after initialisation",
-        "x[1] cannot be read as Boolean or String after initialisation",
-    ]
-
-
-def test_a_state_can_be_set_before_initialisation():
-    slave = Quotient()
-    slave.set_integer([STEPS], [5])
-    slave.enter_initialization_mode()
-    slave.exit_initialization_mode()
+def test_a_state_survives_bytes_and_resumes_bit_by_bit(slave, made):
+    slave.set_real([LATERAL], [1e-3 / 3.0])
     slave.do_step(0.0, 0.1)
-    assert slave.get_integer([STEPS]) == [6]
+    content = ModelSlave._fmu_state_to_bytes(slave._get_fmu_state())
+    other = made()
+    other._set_fmu_state(ModelSlave._fmu_state_from_bytes(content))
+    for one in (slave, other):
+        assert one.do_step(0.1, 0.1) is True
+    assert other._get_fmu_state() == slave._get_fmu_state()
 
 
-def test_a_lazy_row_is_computed_once_when_read_and_belongs_to_the_last_step(slave):
-    slave.do_step(0.0, 0.1)
-    assert slave._model.calls == 0
-    slave.set_real([X1], [40.0])  # for the next step
-    assert slave.get_real([SLOW]) == slave.get_real([SLOW]) == [0.5]
-    assert slave._model.calls == 1
-
-
-def test_a_lazy_row_ignores_a_bad_input_for_the_next_step(slave):
-    slave.set_real([X1], [2.0])
-    slave.do_step(0.0, 0.1)
-    slave.set_real([X1], [math.nan])
-    assert slave.get_real([SLOW]) == [1.0]
-    assert not slave.log_queue
-
-
-def test_a_lazy_row_that_was_not_read_yet_belongs_to_the_saved_step(slave):
-    slave.do_step(0.0, 0.1)
-    slave.set_real([X1], [40.0])  # for the next step
-    other = Quotient()
-    other._set_fmu_state(slave._get_fmu_state())
-    assert other.get_real([SLOW]) == [0.5]
-
-
-@pytest.mark.parametrize("state", [b"", b"nonsense", b"{}", b"[]", b'{"guid": "another"}'])
-def test_a_foreign_state_is_refused(slave, state):
-    """No step can be done after it. A good state heals the instance."""
-    before = slave._get_fmu_state()
-    slave._set_fmu_state(Quotient._fmu_state_from_bytes(state))
-    assert "not a state of the FMU Quotient" in messages(slave, Fmi2Status.error)[0]
-    assert slave.do_step(0.0, 0.1) is False
-    assert "doStep is not allowed after a state" in messages(slave, Fmi2Status.error)[0]
-    slave._set_fmu_state(before)
+@pytest.mark.parametrize("state", [b"", b"nonsense", bytes(10000)])
+def test_a_foreign_state_is_refused_and_changes_nothing(slave, state):
+    slave._set_fmu_state(ModelSlave._fmu_state_from_bytes(state))
+    assert "not a state of this FMU" in messages(slave, Fmi2Status.error)[0]
     assert slave.do_step(0.0, 0.1) is True
 
 
-def test_instances_leave_the_module_path_as_it_was_and_release_their_library_at_the_end(monkeypatch):
+def test_another_version_of_the_package_is_refused_at_instantiation(tmp_path):
+    (tmp_path / NAME).write_bytes(content(COMPONENT, "{another}"))
+    with pytest.raises(RuntimeError, match="FMU EllipticContact was built with another version"):
+        ModelSlave("contact", {"points": 41, "elliptic": True}, GUID, instance_name="q", resources=str(tmp_path))
+
+
+def test_an_instance_that_cannot_be_made_is_an_error_that_says_why(folder):
+    """pythonfmu passes on the text of the exception."""
+    with pytest.raises(RuntimeError, match="the instance has no name"):
+        ModelSlave("contact", {"points": 41, "elliptic": True}, GUID, instance_name="", resources=str(folder))
+
+
+def test_a_slave_that_is_gone_has_freed_its_instance(slave, monkeypatch):
+    called = []
+    monkeypatch.setattr(module._Instance, "call", lambda self, function, *arguments: called.append(function))
+    del slave._instance
+    assert called == ["FreeInstance"]
+
+
+def test_instances_leave_the_module_path_as_it_was_and_release_their_library_at_the_end(made, folder, monkeypatch):
     released: list[str] = []
     monkeypatch.setattr("contact_fmu.python.slave.release_once", released.append)
-    monkeypatch.setattr(sys, "path", ["/nowhere", *sys.path])  # as pythonfmu does before it instantiates
-    Quotient()
-    assert "/nowhere" not in sys.path
-    assert released == ["/nowhere"]
+    monkeypatch.setattr(sys, "path", [str(folder), *sys.path])  # as pythonfmu does before it instantiates
+    made()
+    assert str(folder) not in sys.path
+    assert released == [str(folder)]

@@ -1,4 +1,4 @@
-"""The kinds of models of FMUs, and the functions of each that C calls, and Python for hosts that have it.
+"""The kinds of models of FMUs, and the functions of each that C calls.
 
 The module of a kind has a function `entries()`. It returns Python functions by the names in `SIGNATURES`, which numba compiles.
 The first argument is the array of all values, indexed by value reference. Most functions also take the working memory, which
@@ -55,7 +55,7 @@ KINDS = {
 
 
 #: Those that FMUs for hosts with Python have too.
-_PYTHON = ("contact", "pair", "open_vehicle")
+OF_PYTHON = ("contact", "pair", "open_vehicle")
 
 
 def names(kind: str) -> list[str]:
@@ -76,7 +76,7 @@ def of_kind(kind: str, entries: dict[str, Callable[..., Any]], file: str) -> lis
 
     made: dict[str, Callable[..., Any]] = {name: entries.get(f"model_{name}") or _UNNEEDED[name] for name in SIGNATURES}
     return [
-        Added(f"{kind}_{name}", made[name], result, arguments, _given, file, kind in _PYTHON)
+        Added(f"{kind}_{name}", made[name], result, arguments, _given, file, kind in OF_PYTHON)
         for name, (result, arguments) in SIGNATURES.items()
     ]
 

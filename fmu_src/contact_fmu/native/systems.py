@@ -18,7 +18,7 @@ from shutil import copy
 from contact.core import checkout, library
 from ..archive import digest
 from ..python import entry
-from .kinds import KINDS, names
+from .kinds import KINDS, OF_PYTHON, names
 
 _HERE = Path(__file__).parent
 _ROOT = _HERE.parents[2]
@@ -97,16 +97,19 @@ def folder(systems: Sequence[str] = USUAL, say: Callable[[str], None] = print) -
 
 
 @cache
-def of_this_machine() -> library.Loaded:
-    """Return the library of this machine with the functions that FMUs for hosts with Python call. A checkout builds it."""
+def of_this_machine() -> Path:
+    """Return a library with the FMI functions of FMUs for hosts with Python, for this machine. A checkout builds it."""
     if library.INSTALLED.is_file():
-        return library.loaded()
+        return library.INSTALLED
     linked = _linked(_compiled("systems")) / library.SYSTEM / library.NAME
-    return (
-        library.of_library(linked)
-        if linked.is_file()
-        else library.of_folder(checkout.build(_compiled("added"), "--added"))
-    )
+    if linked.is_file():
+        return linked
+    compiled = checkout.build(_compiled("added"), "--added")
+    made = _linked(compiled)
+    with checkout.locked(made):
+        if not (made / library.NAME).is_file():
+            _link_here(compiled, made)
+    return made / library.NAME
 
 
 def kernels(say: Callable[[str], None] = print) -> Path:
@@ -154,6 +157,20 @@ def _link(compiled: Path, made: Path, systems: Sequence[str], say: Callable[[str
     (made / "licenses").mkdir(exist_ok=True)
     for name, text in licences(HEADERS):
         (made / "licenses" / name).write_text(text, encoding="utf-8")
+
+
+def _link_here(compiled: Path, made: Path) -> None:
+    """Link the FMI functions with the objects of this machine."""
+    from contact.compile.linking import FLAGS, compiler, run
+    from .headers import HEADERS
+
+    made.mkdir(exist_ok=True)
+    symbols = [f"#define {name}_any {name}" for kind in OF_PYTHON for name in names(kind)]
+    (made / "build.h").write_text(header("wheelrail", OF_PYTHON, in_c=False) + "\n".join(symbols), encoding="utf-8")
+    include = [f"-I{path}" for path in (made, WRAPPER[0].parent, HEADERS, INCLUDE)]
+    sources = [path for path in WRAPPER if path.suffix == ".c"]
+    options = (*FLAGS, "-Wno-unused-parameter", "-DKERNELS_IN_C", "-shared", "-lm")
+    run(*compiler(library.SYSTEM), *options, *include, *sources, *compiled.glob("*.o"), "-o", made / library.NAME)
 
 
 def header(prefix: str, kinds: Sequence[str], *, in_c: bool) -> str:

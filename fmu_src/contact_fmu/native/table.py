@@ -28,12 +28,6 @@ def content(component: Component, guid: str) -> bytes:
     return _Writer(component).content(guid)
 
 
-def about(table: Table, message: str) -> tuple[str, str]:
-    """Return the name of the row with which a message begins, empty if there is none, and the rest of the message."""
-    name, _, rest = message.partition(": ")
-    return (name, rest) if name in table.row else ("", message)
-
-
 class _Writer:
     def __init__(self, component: Component) -> None:
         self.component, self.table = component, component.table
@@ -86,9 +80,9 @@ class _Writer:
         return MAGIC + struct.pack("<Q", checksum(body)) + body
 
     def message(self, text: str) -> tuple[int, int]:
-        """Return the text of a message and the value that it is about."""
-        name, rest = about(self.table, text)
-        return self.text(rest), self.at(name) if name else _NONE
+        """Return the text of a message, and the value with whose name it begins."""
+        name, _, rest = text.partition(": ")
+        return (self.text(rest), self.at(name)) if name in self.table.row else (self.text(text), _NONE)
 
     def doubt(self, rule: doubts.Rule) -> bytes:
         first, *rest = (self.at(row) for row in rule.rows)

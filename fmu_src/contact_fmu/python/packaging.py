@@ -20,6 +20,7 @@ from ..catalogue import Model
 from ..description import model_description
 from ..documentation import markdown, page
 from ..icon import png
+from ..native.table import NAME, content
 from ..place import licence
 from . import entry as entries
 from .slave import INTERFACES
@@ -30,7 +31,7 @@ _SCRIPT = '''\
 import sys
 
 try:
-    from contact_fmu.python.model import ModelSlave
+    from contact_fmu.python.slave import ModelSlave
 except ImportError as error:
     from pythonfmu.enums import Fmi2Status
     from pythonfmu.fmi2slave import Fmi2Slave
@@ -73,8 +74,9 @@ def _files(model: Model, platforms: Collection[str]) -> Iterator[tuple[str, byte
     module = f"{name.lower()}_{hashlib.sha256(script).hexdigest()[:16]}"
     yield f"resources/{module}.py", script
     yield "resources/slavemodule.txt", module.encode()
-    for resource, content in model.resources.items():
-        yield f"resources/{resource}", content
+    yield f"resources/{NAME}", content(model.component(), guid)
+    for resource, its in model.resources.items():
+        yield f"resources/{resource}", its
     package = Path(pythonfmu.__file__).parent
     for source in package.glob("*.py"):
         yield f"resources/pythonfmu/{source.name}", source.read_bytes()
