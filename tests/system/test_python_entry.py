@@ -35,7 +35,7 @@ for name in names:
     fmu.instantiate(), fmu.setupExperiment(startTime=0.0), fmu.enterInitializationMode(), fmu.exitInitializationMode()
     fmu.doStep(0.0, 1e-3)
     assert fmu.getReal([v.valueReference for v in description.modelVariables if v.name == "wheel.Q"])[0] > 1e4
-    fmu.reset(), fmu.terminate(), fmu.freeInstance()
+    fmu.terminate(), fmu.reset(), fmu.freeInstance()
 """
 #: A library in place of pythonfmu's, which says the location that it got and makes no instance.
 FAKE = """
