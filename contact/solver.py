@@ -18,6 +18,7 @@ from contact.inputs.creepage import Creepage, as_creepage
 from contact.inputs.material import STEEL, Material
 from contact.inputs.options import ITERATIONS, N_ELEMENTS, N_STRIPS
 from contact.inputs.plausibility import (
+    USUAL_N,
     doubt_alike,
     doubt_beyond,
     doubt_case,
@@ -261,11 +262,7 @@ class Solver(OwnsArrays):
             creepage = replace(as_creepage(creepage), longitudinal=vx, lateral=vy)
         if throw:
             require_trustworthy(STATES[found[STATUS]], separation.y, load, approach)
-        doubt_normal_force(found[N_AT], self.told)
-        doubt_strips(found[BEND_AT], BEND, self.conformal, self.told)
-        doubt_gap(found[GAP_ERROR], self.normal.gap_limit, self.told)
-        doubt_beyond(found[BEYOND_AT], BEYOND, self.told)
-        doubt_rows(separation.fit_error, GAP_LIMIT_INTERACTING, self.told)
+        self._doubt(found, separation.fit_error)
         prepared = Prepared(self.normal.name, self.tangential.name, self.material, self._speed)
         jacobian = self._jacobian(load) if derivatives else None
         return Solution.of_kernel(found, n, self.arrays, creepage, prepared, jacobian)
@@ -301,6 +298,7 @@ class Solver(OwnsArrays):
     ) -> CaseForces:
         """Return the forces of one contact. Parameters as in `solve`; `status` tells whether they can be trusted."""
         _, found = self._run(False, separation, creepage, load, approach, (friction, speed), warm, derivatives)
+        self._doubt(found, separation.fit_error)
         Fx, Fy, Mz, N, approach, pmax, area, slip_area, power, *_ = found
         slip_ratio = slip_area / area if area > 0.0 else 0.0
         jacobian = self._jacobian(load) if derivatives else None
@@ -351,6 +349,22 @@ class Solver(OwnsArrays):
         else:
             n = solve_contact(separation.packed, with_fields, self._packed)
         return n, READ_RESULT(self._answer)
+
+    def _doubt(self, found: tuple[Any, ...], fit_error: float) -> None:
+        """Warn of an answer that no wheel has, or that leaves something out, once of each."""
+        if (  # this is asked at every call, so all at once
+            found[GAP_ERROR] <= self.normal.gap_limit
+            and found[BEND_AT] <= BEND
+            and found[BEYOND_AT] <= BEYOND
+            and found[N_AT] <= USUAL_N.largest
+            and fit_error <= GAP_LIMIT_INTERACTING
+        ):
+            return
+        doubt_normal_force(found[N_AT], self.told)
+        doubt_strips(found[BEND_AT], BEND, self.conformal, self.told)
+        doubt_gap(found[GAP_ERROR], self.normal.gap_limit, self.told)
+        doubt_beyond(found[BEYOND_AT], BEYOND, self.told)
+        doubt_rows(fit_error, GAP_LIMIT_INTERACTING, self.told)
 
     def _jacobian(self, load: float | None) -> Jacobian:
         """Return a copy of the derivatives of the last solution."""

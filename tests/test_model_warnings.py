@@ -137,6 +137,8 @@ def test_every_way_to_strips_tells_of_a_bent_patch():
     for conformal, told in ((False, "It is solved as plane"), (True, "strips with conformal = True")):
         with pytest.warns(ModelWarning, match=told):
             contact.forces([bent(250.0)], ROLLING, load=5e4, conformal=conformal)
+        with pytest.warns(ModelWarning, match=told):
+            contact.Solver(conformal=conformal).forces(bent(250.0), ROLLING, load=5e4)
         pair = WheelRailPair(profiles, conformal=conformal)
         with pytest.warns(ModelWarning, match=told):
             pair.solve(pose, load=8e4)

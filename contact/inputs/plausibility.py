@@ -195,6 +195,7 @@ def doubt_rows(fit_error: float, limit: float, told: set[str]) -> None:
 
 _CASE = ("load", "approach", "creepage.longitudinal", "creepage.lateral", "creepage.spin", "friction", "speed")
 _LARGEST = tuple(USUAL[name].largest for name in _CASE)
+_LEAST_LOAD = USUAL["load"].least
 
 
 def doubt_case(
@@ -208,7 +209,7 @@ def doubt_case(
     """Warn of arguments of `contact.solve` that no wheel on a rail has and whose names are not among the `doubted` ones."""
     most_load, most_approach, longitudinal, lateral, spin, most_friction, fastest = _LARGEST
     if (  # this is asked at every call of a solver, so all at once
-        (not load or USUAL["load"].least <= load <= most_load)
+        (not load or _LEAST_LOAD <= load <= most_load)
         and (not approach or approach <= most_approach)
         and abs(creepage[0]) <= longitudinal
         and abs(creepage[1]) <= lateral
