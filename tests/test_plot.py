@@ -70,8 +70,10 @@ def test_drawn_boundary_is_the_leading_edge_shifted_back_by_strip_theory(ellipse
     assert np.ptp(shift) < 0.03 * mesh.a.max(), "sub-element: one element here is 0.1 a"
 
 
-def test_zone_names_stand_in_their_own_zones(solution, two_patches):
-    for solved in (solution, two_patches):
+def test_zone_names_stand_in_their_own_zones(solution, two_patches, ellipse):
+    elements = {"normal": "halfspace", "tangential": "halfspace", "n_strips": 20, "n_elements": 20}
+    on_elements = contact.solve(ellipse, contact.Creepage(-1e-3, 5e-4, 0.1), load=60e3, **elements)
+    for solved in (solution, two_patches, on_elements):
         for k in range(solved.n_patches):
             mesh = PatchMesh(solved, k)
             labels = mesh.labels()

@@ -14,7 +14,6 @@ from contact.geometry import profile
 from contact.geometry.wheelset import Pair, Pose, Velocity
 from contact.pair import WheelRailPair, over_poses
 from contact.view.tables import axes_of
-from contact.view.units import UNITS
 
 pandas = pytest.importorskip("pandas")
 xarray = pytest.importorskip("xarray")
@@ -164,7 +163,3 @@ solution.to_dataframe()
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True)
     assert done.returncode == 1
     assert "ImportError: tables need pandas: pip install 'wheelrail-contact[tables]'" in done.stderr
-
-
-def test_every_unit_is_written_once():
-    assert all(unit.strip() for unit in UNITS.values())

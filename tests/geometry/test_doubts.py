@@ -9,8 +9,9 @@ import contact
 from contact import ContactError
 from contact.errors import PlausibilityWarning
 from contact.geometry import profile
+from contact.geometry.surfaces import SurfacePair
 from contact.geometry.wheelset import Pair, Pose, Velocity, contacts
-from contact.pair import RollerRig, WheelRailPair
+from contact.pair import HalfspacePair, RollerRig, WheelRailPair
 
 WHEEL, RAIL = profile.s1002(), profile.rail_60e1()
 LIGHT = r"^{} = 80: a wheel carries 20 to 150 kN; the unit is N$"
@@ -61,7 +62,10 @@ def test_a_wheel_that_lies_a_millimetre_inside_its_rail_is_doubted(solver):
         assert str(said.message).startswith("N = ")
 
 
-@pytest.mark.parametrize("of", [WheelRailPair, lambda pair: RollerRig(pair, 0.6)])
+ELEMENTS = SurfacePair(WHEEL, RAIL, rows=20, columns=20)
+
+
+@pytest.mark.parametrize("of", [WheelRailPair, lambda pair: RollerRig(pair, 0.6), lambda pair: HalfspacePair(ELEMENTS)])
 def test_every_pair_doubts_load_friction_and_pose(of):
     pair = of(Pair(WHEEL, RAIL))
     for pose, options, said in (

@@ -6,7 +6,6 @@ import numpy as np
 import pytest
 
 from contact import STEEL, Status
-from contact.errors import PlausibilityWarning
 from contact.geometry import profile
 from contact.geometry.surfaces import Flat, Polygon, SurfacePair, WheelSurface
 from contact.geometry.wheelset import Pose, Velocity
@@ -109,9 +108,3 @@ def test_in_a_transition_forces_are_the_mean_by_shares():
     assert between.power_per_metre == pytest.approx(
         share * apart.power_per_metre + (1.0 - share) * joint.power_per_metre, rel=1e-3
     )
-
-
-def test_the_half_space_pair_doubts_what_strips_doubt():
-    solver = HalfspacePair(SurfacePair(WheelSurface.constant(WHEEL), RAIL, rows=20, columns=20))
-    with pytest.warns(PlausibilityWarning, match=r"pose.y = 0.03: a flange touches"):
-        solver.solve(Pose(y=0.03), FREE, load=8e4)

@@ -156,18 +156,6 @@ def test_pictures_show_one_panel_a_method(small, tmp_path):
     assert (tmp_path / "picture.png").read_bytes()[:4] == b"\x89PNG"
 
 
-def test_stick_and_slip_are_named_inside_the_patch_of_a_half_space(small):
-    pytest.importorskip("matplotlib")
-    from contact.plot.mesh import PatchMesh
-
-    mesh = PatchMesh(small.solutions[0], 0)
-    places = mesh.labels()
-    assert set(places) == {"stick", "slip"}
-    for y, x in places.values():
-        half = np.interp(y, mesh.y, mesh.a)
-        assert abs(x) < half
-
-
 def test_with_many_pairs_every_method_with_fields_is_drawn_once(monkeypatch):
     monkeypatch.setattr(comparison, "MOST_PANELS", 3)
     methods = ("hertz+polach", "hertz+fastsim", "analyn+fastsim", "hertz+fastrip", "analyn+fastrip")

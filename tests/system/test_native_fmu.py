@@ -17,14 +17,18 @@ def fmu(open_native):
     return fmu.initialize(stop_time=1.0)
 
 
-def test_extreme_values_give_finite_outputs_or_none(open_native):
+def test_extreme_values_give_finite_outputs_or_none(open_native, native_pair):
     """No finite input causes a crash, a hang or NaN."""
 
-    def chosen(rng):
+    def of_contact(rng):
         methods = (int(rng.integers(len(of_a_kind))) + 1 for of_a_kind in contact.methods().batched)
         return dict(zip(("method.normal", "method.tangential"), methods, strict=True))
 
-    assert answered_extremes(open_native().initialize(), 400, chosen) > 20
+    def of_pair(rng):
+        return {"load.kind": int(rng.integers(1, 3)), "method.tangential": int(rng.integers(1, 4))}
+
+    assert answered_extremes(open_native().initialize(), 400, of_contact) > 20
+    assert answered_extremes(native_pair().initialize(), 200, of_pair) > 20
 
 
 def test_damaged_bytes_are_no_state(fmu):

@@ -3,7 +3,6 @@
 import numpy as np
 import pytest
 from differences import derivative, quotient
-from fmu_instance import answered_extremes
 from pair_case import MOTION
 
 WRENCH = ("force.x", "force.y", "force.z", "moment.x", "moment.y", "moment.z")
@@ -37,10 +36,3 @@ def test_directional_derivatives_are_those_of_the_outputs(native_pair, known, h)
         derivative(fmu, WRENCH, {known: 1.0}), wanted, rtol=share, atol=noise * np.abs(wanted).max()
     )
     assert wanted.all()
-
-
-def test_extreme_inputs_give_finite_outputs_or_none(native_pair):
-    def chosen(rng):
-        return {"load.kind": int(rng.integers(1, 3)), "method.tangential": int(rng.integers(1, 4))}
-
-    assert answered_extremes(native_pair().initialize(), 200, chosen) > 20

@@ -12,6 +12,7 @@ from contact.geometry.surfaces import WheelSurface
 from contact_models.runs import result
 from contact_models.runs.run import VehicleRun
 from contact_models.runs.scenario import Declaration, Methods, Profiles, Recording, Scenario
+from contact_models.runs.trust import StepError
 from contact_models.vehicle.course import lay
 from contact_models.vehicle.declared import VehicleDeclaration, read
 from contact_models.vehicle.sections import RailSection
@@ -61,9 +62,14 @@ def scenario(**changes) -> Scenario:
 
 
 def interrupted(run: VehicleRun) -> None:
-    """Complete a run, and another one from the state that it has now. Assert that both have the same results."""
+    """Complete a run, and another one from the state that it has now. Assert that both have the same results.
+
+    The error of the step, for which each would be run twice more, is left out.
+    """
     other = VehicleRun(run.scenario)
     other.restore(run.save())
+    for one in (run, other):
+        vars(one)["step_error"] = StepError(0.0, 0.0, 1.0)
     assert result.dataset(completed(other)).identical(result.dataset(completed(run)))
 
 

@@ -13,11 +13,11 @@ PROFILES = profile.s1002(), profile.rail_60e1()
 
 
 def test_steady_curving_is_the_equilibrium():
-    """Time response after three seconds in the curve against Newton's method: forces within 2 % of the wheel load."""
+    """Time response after a second and a half in the circle against Newton's method: forces within 2 % of the wheel load."""
     found = curving.in_curve(read("manchester"), PROFILES, 600.0, speed=25.0, cant=0.1, options=FAST)
-    track = Track(curves=(Curve(start=20.0, radius=600.0, length=400.0, transition=40.0, cant=0.1),))
+    track = Track(curves=(Curve(start=5.0, radius=600.0, length=400.0, transition=40.0, cant=0.1),))
     sim = simulation("manchester", track, speed=25.0, length=300.0, options=PACED)
-    sim.advance(4e-4, 12500)
+    sim.advance(4e-4, 8000)
     sim.state.sums[:] = 0.0
     sim.advance(4e-4, 2500)
     for name, column in (("lateral", Sum.LATERAL), ("vertical", Sum.VERTICAL)):

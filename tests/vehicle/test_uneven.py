@@ -26,7 +26,7 @@ RADIUS, SPEED = 0.46, 20.0  # [m], [m/s]
 TURN = 2.0 * math.pi * RADIUS / SPEED  # [s]
 SCENARIO = """
 name = "flat"
-length = 2.5
+length = 1.75
 speed = 20.0
 recording = {settling = 1.0, spacing = 0.25}
 methods = {normal = "analyn", tangential = "fastrip", strips = 20, elements = 12}
