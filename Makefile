@@ -72,10 +72,9 @@ lint: $(READY)   ## ruff, mypy, import-linter
 accuracy: $(READY) ## write the accuracy tables, with CONTACT's own methods for comparison, to docs/
 	PYTHONPATH=. $(BIN)/python benchmarks/accuracy.py --write docs/check/accuracy.md
 	PYTHONPATH=. $(BIN)/python benchmarks/normal_methods.py --write docs/check/normal_methods.md
-	PYTHONPATH=. $(BIN)/python benchmarks/unseen_patches.py --cases 60
 	PYTHONPATH=. $(BIN)/python benchmarks/halfspace.py --write docs/check/halfspace.md
-	$(BIN)/contact manchester --out docs/check/manchester.md
-	$(BIN)/contact statistics --out docs/check/statistics.md
+	PYTHONPATH=. $(BIN)/python -m benchmarks.manchester --write docs/check/manchester.md
+	PYTHONPATH=. $(BIN)/python -m benchmarks.statistics --write docs/check/statistics.md
 
 proof: $(READY)   ## write published cases beside ours to docs/check/proof.md
 	PYTHONPATH=. $(BIN)/python -m benchmarks.proof

@@ -143,7 +143,7 @@ Mean absolute errors.
 Forces and moments in 7 creepage states for each patch. Forces are divided by their own μN, moments by μN√(area/π).
 
 {d_force}
-Slopes at vanishing creepage against our own boundary elements in full adhesion (`benchmarks/linear_slopes.py`, which meets
+Slopes at vanishing creepage against our own boundary elements in full adhesion (`reference/linear_slopes.json`, which meet
 Kalker's table on ellipses within 0.5 %).
 
 {slopes}

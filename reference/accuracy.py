@@ -146,7 +146,7 @@ def errors_on_patches(normal: str, tangential: str) -> dict[str, np.ndarray]:
 
 @functools.cache
 def errors_of_slopes(normal: str, tangential: str) -> np.ndarray:
-    """Return relative errors (patches, 4) of Fx/ξ, Fy/η, Fy/φ, Mz/φ at vanishing creepage (benchmarks/linear_slopes.py)."""
+    """Return relative errors (patches, 4) of Fx/ξ, Fy/η, Fy/φ, Mz/φ at vanishing creepage."""
     tiny, errors = 1e-8, []
     for case, true in zip(patches(), linear_slopes(), strict=True):
         assert case["name"] == true["name"]

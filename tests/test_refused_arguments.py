@@ -22,8 +22,6 @@ from contact.inputs.material import Thermal
 from contact.pair import ContactDamping, FrictionMemory, HalfspacePair, RollerRig, WheelRailPair
 from contact.pair.curving import in_curve
 from contact.stress import Endurance, SurfaceLoad, at, below, dang_van, largest
-from contact.study.manchester import manchester
-from contact.study.statistics import statistics
 from contact.theory import kalker
 from contact_fmu import surfaces
 from contact_models.life.flange import Flange
@@ -369,13 +367,6 @@ REFUSED: list[tuple[Callable[[], Any], str]] = [
     (lambda: contact.compare(problem(friction=-1.0)), "friction = -1"),
     (lambda: problem(approach=1e-5), "exactly one of load and approach"),
     (lambda: contact.Case(1.0, CREEPAGE, load=1.0), "separation = 1.0"),
-    (lambda: manchester(at=[]), "at is empty"),
-    (lambda: statistics(tangential=["magic"]), "tangential = 'magic'"),
-    (lambda: statistics(tangential=["halfspace"]), "tangential = 'halfspace' is not offered here"),
-    (lambda: statistics(tangential=[]), "tangential is empty"),
-    (lambda: statistics(cases=0), r"cases = 0 is not an integer in the allowed range \[1, 4000\]"),
-    (lambda: statistics(elements=2.5), "elements = 2.5"),
-    (lambda: statistics(elements=1001), r"elements = 1001 is not an integer .* \[4, 1000\]"),
     # vehicles
     (lambda: Track(curves=(CURVE, replace(CURVE, start=100.0))), "starts at 100 m overlaps .* ends at 140 m"),
     (lambda: Irregularities(spectrum="ERRI B176 lo"), "did you mean 'ERRI B176 low'"),

@@ -1,24 +1,32 @@
 """Crossings along the way, CONTACT and ours: the section of docs/check/proof.md, from reference/crossing.csv.
 
-python -m benchmarks.proof.crossing FOLDER    makes that file; FOLDER holds F_crossing/, which is not ours to pass on
+python -m benchmarks.proof.crossing FOLDER    makes that file; FOLDER is F_crossing/, which is not ours to pass on
 """
 
 from __future__ import annotations
 
 import csv
 import sys
+from collections.abc import Iterator
 from pathlib import Path
 
 import matplotlib.pyplot as plt
 import numpy as np
 
-from benchmarks.surfaces import MU, pair_of, poses
 from benchmarks.tables import table
-from contact.geometry.wheelset import Pose
+from contact.geometry.surfaces import RailSurface, SurfacePair, WheelSurface
+from contact.geometry.wheelset import Pose, Velocity
 from contact.pair import HalfspacePair, WheelRailPair
 from reference import STEEL
 
 KEPT = Path(__file__).parents[2] / "reference" / "crossing.csv"
+MU, VELOCITY = 0.3, Velocity(2.0, spin=-4.3481181)
+SURFACES = {
+    "nose": "cross_nose",
+    "uk_v2_z": "uk_interrupt_v2",
+    "uk_v2_Fz": "uk_interrupt_v2",
+    "cross_wing": "cross_wing_extd",
+}
 WHOSE = ("CONTACT", "halfspace", "strip_halfspace")
 NAMES = {
     "nose": "nose rising at 1:10, given force",
@@ -28,13 +36,34 @@ NAMES = {
 }
 
 
+def poses(path: Path, sweep: str) -> Iterator[list[dict[str, str]]]:
+    """Yield the rows of every pose of a sweep that has contact."""
+    with path.open() as file:
+        rows = [row for row in csv.DictReader(file) if row["sweep"] == sweep and row["N"]]
+    for k, row in enumerate(rows):
+        if row["patch"] == "1":
+            yield rows[k : k + int(row["n_patches"])]
+
+
+def pair_of(folder: Path, sweep: str) -> SurfacePair:
+    """Return the wheel and the crossing of a sweep."""
+    data, wheel = (np.load(folder / f"{name}.npz") for name in (f"surface_{SURFACES[sweep]}", "wheel_s1002"))
+    rail = RailSurface(
+        1e-3 * data["u"],
+        [1e-3 * data[f"yz_{i:02d}"] for i in range(data["u"].size)],
+        features=1e-3 * data["features_s"],
+        interpolating=int(data["u_intpol"]) == 1,
+    )
+    return SurfacePair(WheelSurface([0.0], [1e-3 * wheel["yz"]]), rail, rail_origin=(0.75, 0.0), material=STEEL)
+
+
 def compute(folder: Path) -> None:
     """Write `KEPT`: forces on the wheel [N], height of the wheelset [mm], largest pressure [MPa]."""
     lines = [["sweep", "station", "load", "whose", "Fx", "Fy", "Fz", "z", "pressure"]]
     for sweep in NAMES:
-        pair, velocity = pair_of(folder, sweep, 60)
+        pair = pair_of(folder, sweep)
         solvers = {"halfspace": HalfspacePair(pair), "strip_halfspace": WheelRailPair(pair, material=STEEL)}
-        for rows in poses(sorted(folder.glob("F_*/*.csv")), sweep):
+        for rows in poses(folder / "crossing.csv", sweep):
             first = rows[0]
             if sweep != "uk_v2_z" and first["mode"] != "Fz":
                 continue
@@ -44,7 +73,7 @@ def compute(folder: Path) -> None:
             under = {"vertical": float(first["Fz_tr"])} if first["mode"] == "Fz" else {}
             pose = Pose(y=1e-3 * float(first["y_ws"]), z=1e-3 * float(first["z_wm"]), yaw=float(first["yaw"]))
             for name, solver in solvers.items():
-                found = solver.solve(pose, velocity, friction=MU, station=1e-3 * float(first["s_ws"]), **under)
+                found = solver.solve(pose, VELOCITY, friction=MU, station=1e-3 * float(first["s_ws"]), **under)
                 lines.append([*head, name, *shown(list(found.force), 1e3 * found.z, 1e-6 * found.max_pressure)])
     with KEPT.open("w", newline="", encoding="utf-8") as file:
         file.write("# Set F of CONTACT 25.1 (rev 2707, Apache-2.0), and ours; python -m benchmarks.proof.crossing\n")

@@ -26,14 +26,12 @@ from contact.cli.geometry import geometry as points
 from contact.cli.in_time import in_time
 from contact.cli.inp import inp
 from contact.cli.lut import lut
-from contact.cli.manchester import manchester
 from contact.cli.output import deliver, drawing, reported
 from contact.cli.plugins import add_plugins
 from contact.cli.problem import Position
 from contact.cli.profile_check import check
 from contact.cli.rail import rail as elastic_rail
 from contact.cli.roller import roller
-from contact.cli.statistics import statistics
 from contact.cli.stress import stress
 from contact.cli.transient import transient
 from contact.errors import require_number
@@ -200,7 +198,6 @@ def curve(
 
 
 app.command()(compare)
-app.command()(statistics)
 app.command()(stress)
 app.command()(transient)
 app.command("rail")(elastic_rail)
@@ -214,7 +211,6 @@ app.command("geometry")(points)
 app.command()(conicity)
 app.command("profiles")(list_profiles)
 app.command()(check)
-app.command()(manchester)
 app.add_typer(creep_table.app)
 
 

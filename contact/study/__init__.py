@@ -1,8 +1,4 @@
-"""Comparison of methods: on single cases, on thousands of cases, and on benchmarks of the literature.
-
-No kernel imports this package. Import `contact.study.statistics` and `contact.study.manchester` explicitly, because their
-import takes time.
-"""
+"""Comparison of methods on cases, and look-up tables. No kernel imports this package."""
 
 from contact.study.case import Case
 from contact.study.compare import compare

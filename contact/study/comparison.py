@@ -3,15 +3,15 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from dataclasses import asdict, dataclass
-from typing import TYPE_CHECKING, Any, ClassVar
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
 
 from contact.results import Solution
 from contact.study.case import Case
-from contact.study.files import csv_of
+from contact.study.files import csv_of, write
 from contact.study.pairs import REFERENCE, Pair
-from contact.study.report import Report
 from contact.study.row import Row
 from contact.study.table import Table, tables_of
 from contact.version import __version__
@@ -21,10 +21,11 @@ if TYPE_CHECKING:
 
 #: Largest number of pairs of which a picture shows all.
 MOST_PANELS = 24
+_TITLE = "Contact models side by side"
 
 
 @dataclass(frozen=True)
-class Comparison(Report):
+class Comparison:
     """Cases solved by several pairs of methods.
 
     Attributes
@@ -112,8 +113,6 @@ class Comparison(Report):
         """Return CSV with one line per row, in SI units."""
         return csv_of([row.flat() for row in self.rows])
 
-    title: ClassVar[str] = "Contact models side by side"
-
     @property
     def about(self) -> list[str]:
         """Paragraphs of explanation for the tables."""
@@ -133,11 +132,28 @@ class Comparison(Report):
         """Return the tables of results of each case, and of errors if there is a reference."""
         return [table for case, rows, _ in self.by_case() for table in tables_of(case, rows, self.has_reference)]
 
-    def parts(self) -> Iterable[str]:
-        """Return tables and picture of each case in HTML."""
-        from contact.study.page import cases_of
+    def markdown(self) -> str:
+        """Return the tables in Markdown."""
+        return "\n\n".join([f"# {_TITLE}", *self.about, *(table.markdown() for table in self.tables())]) + "\n"
 
-        return cases_of(self)
+    def html(self) -> str:
+        """Return a self-contained HTML page: tables and picture of each case."""
+        from contact.study.page import cases_of, document
+
+        return document(_TITLE, self.about, cases_of(self))
+
+    def write(self, path: str | Path) -> None:
+        """Write numbers (.json, .csv), tables (.md), the picture (.png, .pdf, .svg) or a page (.html).
+
+        The ending of `path` selects which of them.
+
+        Raises
+        ------
+        ContactError
+            For any other ending, or if the file cannot be written.
+        """
+        texts = {".html": self.html, ".md": self.markdown, ".json": self.json, ".csv": self.csv}
+        write(path, texts, self.figure)
 
     def to_xarray(self) -> Any:
         """Return the rows as an `xarray.Dataset` over case and pair, with NaN if there is no value. It needs xarray."""

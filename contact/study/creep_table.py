@@ -3,10 +3,14 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+import multiprocessing
+from collections.abc import Callable, Iterator, Sequence
+from concurrent.futures import ProcessPoolExecutor
 from pathlib import Path
+from typing import TypeVar
 
 from contact.errors import ContactError
+from contact.forces import cores
 from contact.inputs.creepage import Creepage
 from contact.inputs.material import Material
 from contact.inputs.separation import Separation
@@ -14,9 +18,11 @@ from contact.kernels.enumerations import Status
 from contact.results.solution import Solution
 from contact.solve import solve
 from contact.study.ellipse import ellipse
-from contact.study.reference import in_processes
 from contact.theory import force_table as table
 from contact.theory import kalker
+
+Job = TypeVar("Job")
+Answer = TypeVar("Answer")
 
 #: Conditions of the computation: material, load [N], friction [-] and √(ab) [m]. The results are divided by mu N or mu N c.
 MATERIAL, LOAD, FRICTION, C = Material(82e9, table.NU), 82e3, 0.3, 6e-3
@@ -57,6 +63,16 @@ def build(
                     progress(n / len(todo), f"row {n} of {len(todo)}")
     except OSError as error:
         raise ContactError(f"{path} cannot be written: {error.strerror}") from None
+
+
+def in_processes(solve: Callable[[Job], Answer], jobs: Sequence[Job], processes: int | None) -> Iterator[Answer]:
+    """Yield the answers of the jobs in their order, from as many processes, by default from all cores."""
+    count = min(processes or cores(), len(jobs))
+    if count <= 1:
+        yield from map(solve, jobs)
+        return
+    with ProcessPoolExecutor(count, mp_context=multiprocessing.get_context("spawn")) as pool:
+        yield from pool.map(solve, jobs)
 
 
 def _heading(elements: int) -> str:

@@ -109,7 +109,7 @@ def test_linear_theory_on_an_ellipse_gives_kalkers_flexibilities(separation):
 @pytest.mark.slow
 @pytest.mark.parametrize("index", [0, 3, 7])
 def test_slopes_of_linear_theory_on_the_patch_itself(index):
-    """`fastsim_knothe` has the slopes of `benchmarks/linear_slopes.py` to 1.7 %; `fastsim` deviates by 20 %."""
+    """`fastsim_knothe` has the slopes of boundary elements to 1.7 %; `fastsim` deviates by 20 %."""
     case = reference.patches()[index]
     truth = np.array(reference.linear_slopes()[index]["slopes"])
     tiny = 1e-8
