@@ -105,28 +105,11 @@ def test_a_start_or_a_stop_without_meaning_is_an_error(made, start, stop):
     assert messages(slave, Fmi2Status.error)[0].endswith("allowed: numbers, the stop not before it")
 
 
-def test_a_state_survives_bytes_and_resumes_bit_by_bit(slave, made):
-    slave.set_real([LATERAL], [1e-3 / 3.0])
-    slave.do_step(0.0, 0.1)
-    content = ModelSlave._fmu_state_to_bytes(slave._get_fmu_state())
-    other = made()
-    other._set_fmu_state(ModelSlave._fmu_state_from_bytes(content))
-    for one in (slave, other):
-        assert one.do_step(0.1, 0.1) is True
-    assert other._get_fmu_state() == slave._get_fmu_state()
-
-
 @pytest.mark.parametrize("state", [b"", b"nonsense", bytes(10000)])
 def test_a_foreign_state_is_refused_and_changes_nothing(slave, state):
     slave._set_fmu_state(ModelSlave._fmu_state_from_bytes(state))
     assert "not a state of this FMU" in messages(slave, Fmi2Status.error)[0]
     assert slave.do_step(0.0, 0.1) is True
-
-
-def test_another_version_of_the_package_is_refused_at_instantiation(tmp_path):
-    (tmp_path / NAME).write_bytes(content(COMPONENT, "{another}"))
-    with pytest.raises(RuntimeError, match="FMU EllipticContact was built with another version"):
-        ModelSlave("contact", {"points": 41, "elliptic": True}, GUID, instance_name="q", resources=str(tmp_path))
 
 
 def test_an_instance_that_cannot_be_made_is_an_error_that_says_why(folder):

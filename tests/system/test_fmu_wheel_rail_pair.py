@@ -24,7 +24,7 @@ ROOT = Path(__file__).parents[2]
 
 def test_equals_the_solver_on_random_cases(open_pair, request):
     fmu = open_pair()
-    cases = 300 if "native" in request.node.name else 60
+    cases = 300 if "native" in request.node.name else 30
     statuses = {s.status for seed in range(cases) if (s := compare(fmu, seed))}
     assert statuses >= {contact.Status.OK, contact.Status.NO_CONTACT, contact.Status.SATURATED}
 

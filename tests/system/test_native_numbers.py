@@ -54,30 +54,15 @@ def test_windows_library_equals_the_solver(windows, cases):
     check(cases, windows.solve((case.values for case in cases), OUTPUTS), 1e-10)
 
 
-def test_python_packaging_equals_the_solver(open_fmu, cases):
-    fmu, rows, few = open_fmu(NAME), [], cases[:100]  # the functions are those of the native one
-    for case in few:
-        fmu.fmu.reset()
-        fmu.update(case.values)
-        fmu.initialize()
-        fmu.step(0.0, STEP)
-        rows.append(list(fmu.read(OUTPUTS).values()))
-    check(few, np.array(rows))
-
-
-def test_creep_stiffness_of_both_packagings_is_the_same(open_native, open_fmu):
+def test_the_packaging_for_python_gives_the_bits_of_the_native_one(open_native, open_fmu, cases):
+    """It passes calls on to the same functions; outputs that are computed when they are read are among them."""
     one, other = open_native(), open_fmu(NAME)
-    names = [f"creep_stiffness[{i},{j}]" for i in (1, 2, 3) for j in (1, 2, 3)]
-    slopes = []
-    for seed in (2, 3, 5, 7, 11, 13):
+    for case in cases[:30]:
         for fmu in (one, other):
             fmu.fmu.reset()
-            fmu.update(random_case(seed).values)
-            fmu.initialize()
-            fmu.step()
-        assert one.read(names) == other.read(names)
-        slopes += one.read(names).values()
-    assert any(slopes)
+            fmu.update(case.values)
+            fmu.initialize().step(h=STEP)
+        assert other.all("output", "input", "parameter") == one.all("output", "input", "parameter"), case.seed
 
 
 def test_strips_that_interact_go_on_from_the_last_step(open_native):

@@ -109,23 +109,3 @@ def test_fmpy_tunes_during_a_run(native, native_fmi3, kind):
         energy = 0.5 * (early["power.friction"] + late["power.friction"])
         # co-simulation sees the change one communication step late
         assert found["total.energy"][-1] == pytest.approx(energy, rel=1e-6 if kind == "ModelExchange" else 0.02)
-
-
-def test_both_packagings_of_the_pair_keep_their_memory(native_pair, open_fmu):
-    """The warm start of interacting strips, and the bins of accumulated damage."""
-    one = native_pair()
-    other, found = open_fmu("WheelRailPair"), []
-    for fmu in (one, other):
-        fmu.update({"pose.y": 2e-3, "velocity.spin": -43.6, "accumulation.wear_law": 2})
-        fmu.initialize()
-        rows = []
-        for tuned in ({}, {"material.shear_modulus": 7e10, "friction.law": 3}, {"friction.kinetic": 0.1}):
-            fmu.update(tuned)
-            fmu.step()
-            rows.append(fmu.all("output"))
-        found.append(rows)
-    for mine, wanted in zip(*found, strict=True):
-        assert mine == pytest.approx(wanted, rel=1e-12, abs=1e-12)
-    worn = [sum(v for name, v in row.items() if name.startswith("accumulated.wheel.volume")) for row in found[0]]
-    assert 0.0 < worn[0] < worn[1] < worn[2]
-    assert worn[2] == pytest.approx(found[0][2]["total.worn_volume"], rel=1e-12)

@@ -6,18 +6,6 @@ from fmu_instance import Instance
 
 from contact_models.vehicle.declared import SIDES
 
-#: Parameters with other values than their defaults.
-PARAMETERS = [
-    ("initial.y[1]", -2e-3),
-    ("initial.z[1]", 5e-5),
-    ("initial.roll[1]", 1e-4),
-    ("initial.radius[1]", 0.459),
-    ("initial.distance", 100.0),
-    ("rail.origin_y", 0.76),
-    ("rail.origin_z", 1e-3),
-    ("reference_speed", 5.0),
-]
-
 
 def inputs(k: int) -> dict[str, float]:
     """Return the forces of step `k` by the names of the FMU's inputs."""
