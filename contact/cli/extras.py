@@ -10,8 +10,8 @@ EXTRAS = {
     "xarray": (("xarray", "scipy"), "result files: run, wear"),
     "profiles": (("scipy",), "smoothing of measured profiles"),
     "scale": (("dask", "distributed"), "wear on several processes"),
-    "fmu": (("pythonfmu", "fmpy"), "fmu, demo without --python"),
-    "native": (("ziglang", "pythonfmu", "fmpy"), "fmu for hosts without Python"),
+    "fmu": (("fmpy",), "fmu, demo without --python"),
+    "native": (("ziglang", "fmpy"), "fmu for hosts without Python"),
 }
 
 

@@ -9,14 +9,12 @@ enum { STANDARD_SNPRINTF = 2 };
 int __stdio_common_vsprintf(unsigned long long options, char *text, size_t room, const char *format, void *locale,
                             va_list values);
 
-#ifndef OWN_START
 /* There are no constructors, no variables of a thread and nothing to free. */
 int __stdcall _DllMainCRTStartup(void *library, unsigned long reason, void *reserved)
 {
     (void)library, (void)reason, (void)reserved;
     return 1;
 }
-#endif
 
 int vsnprintf(char *text, size_t room, const char *format, va_list values)
 {

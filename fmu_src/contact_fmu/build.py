@@ -18,6 +18,7 @@ from .documentation import markdown
 from .native import packaging as native
 from .native import systems
 from .options import Options
+from .python import packaging as python
 from .tables.vehicle import START
 
 #: FMUs by the names of their tables; those that need an option have no form for hosts with Python.
@@ -99,8 +100,6 @@ def build(options: Options, given: Mapping[Kind, Profile]) -> None:
         return
     names = {model.table.name for model in (*chosen, *more)}
     if "python" in asked.packagings:
-        from .python import packaging as python  # it needs pythonfmu
-
         for model in chosen:
             print(f"{model.table.name}, for hosts with Python ... ", end="", flush=True)
             made = python.build(model, options.out / "python", asked.platforms)

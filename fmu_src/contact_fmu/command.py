@@ -35,12 +35,6 @@ def fmu(
             from .build import build
 
             build(options, reading.chosen(wheel, rail))
-        except ModuleNotFoundError as missing:
-            stop(
-                f"FMUs for hosts with Python need {missing.name}: pip install 'wheelrail-contact[fmu]'. "
-                "Native ones do not: --packaging native",
-                1,
-            )
         except ImportError as error:
             stop(str(error), 1)
     if as_json:

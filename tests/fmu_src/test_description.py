@@ -13,7 +13,7 @@ from contact_fmu.catalogue import models, surfaces
 from contact_fmu.description import model_description
 from contact_fmu.documentation import markdown
 from contact_fmu.native.packaging import INTERFACES as NATIVE
-from contact_fmu.python.slave import INTERFACES
+from contact_fmu.python.packaging import INTERFACES
 from contact_fmu.tables import solver, wheel_rail_contact
 from contact_fmu.variables import Causality, Kind
 

@@ -28,7 +28,7 @@ INSTALLED = library.INSTALLED.parents[1]
 INCLUDE = library.get_include()
 PROCESSOR = _HERE / "c_library" / "processor.c"
 WRAPPER = sorted((_HERE / "c").iterdir())
-#: The C source of the library that FMUs for hosts with Python have in front of pythonfmu's.
+#: The C source of the library that a host loads of FMUs for hosts with Python.
 ENTRY = sorted((_HERE.parent / "python" / "c").iterdir())
 #: System, by its name in FMI 2.0 or, for 64-bit ARM, in 3.0 → file name of the library.
 SYSTEMS = {

@@ -1,4 +1,4 @@
-"""The library that a host loads of an FMU for hosts with Python: `c/`, for each system that pythonfmu serves.
+"""The library that a host loads of an FMU for hosts with Python: `c/entry.c`, for Linux and Windows.
 
 A wheel has them beside its other libraries. A checkout builds them by zig, in two seconds, and keeps them.
 """
@@ -11,7 +11,7 @@ from contact.core import checkout, library
 from ..archive import digest
 
 #: System → name of the file, among the libraries of all systems.
-FILES = {"linux64": "libpythonfmu-entry.so", "win64": "pythonfmu-entry.dll"}
+FILES = {"linux64": "libwheelrail-entry.so", "win64": "wheelrail-entry.dll"}
 _HERE = Path(__file__).parent / "c"
 _LOCATION = Path(__file__).parents[1] / "native" / "c" / "location.h"
 #: The libraries of an installed package.
@@ -49,7 +49,7 @@ def build(wanted: list[str], made: Path) -> None:
         raise ImportError(
             f"{error}: to build FMUs for hosts with Python without a wheel  pip install 'wheelrail-contact[native]'"
         ) from None
-    flags = ("-std=c11", "-O2", "-Wall", "-Wextra", "-fPIC", "-fvisibility=hidden", "-DOWN_START")
+    flags = ("-std=c11", "-O2", "-Wall", "-Wextra", "-fPIC", "-fvisibility=hidden")
     include = (f"-I{_LOCATION.parent}", f"-I{HEADERS}")
     for system in wanted:
         folder = made / system

@@ -120,14 +120,12 @@ class Fmu:
             self._call(self._fmu.setInteger, [variable.valueReference], [int(value)])
 
     def _call(self, function: Callable[..., Any], *arguments: object) -> None:
-        """Call a function and raise the FMU's error messages. pythonfmu returns OK for some calls that the FMU refuses."""
+        """Call a function and raise the FMU's error messages."""
         self._objections.clear()
         try:
             function(*arguments)
         except FMICallException as error:
             raise ContactError("; ".join(self._objections) or str(error)) from None
-        if self._objections:
-            raise ContactError("; ".join(self._objections))
 
     def _log(self, environment: object, name: bytes, status: int, category: bytes, message: bytes) -> None:
         if status >= _DISCARD:
