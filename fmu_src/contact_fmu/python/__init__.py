@@ -1,1 +1,1 @@
-"""The pythonfmu packaging: FMUs for hosts that have Python with this package installed."""
+"""The packaging for hosts that have Python with this package installed."""
