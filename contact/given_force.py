@@ -1,4 +1,4 @@
-"""The creepages that answer a given tangential force (`contact.kernels.given_force`), and the root of a rising function."""
+"""The creepages of a given force (`contact.kernels.given_force`), the depth under a load, and the root of a rising function."""
 
 from __future__ import annotations
 
@@ -10,11 +10,15 @@ import numpy as np
 
 from contact.errors import ContactError, require_number
 from contact.inputs.creepage import Creepage
+from contact.kernels.geometry.settle import DEEPEST
 from contact.kernels.given_force import LATERAL, LONGITUDINAL, begin, go_on
 from contact.kernels.root import advance
 from contact.kernels.root import begin as begin_root
 from contact.kernels.searches import FORCE_SEARCH, ROOT
 from contact.results import Solution, Status
+
+#: Search of a depth: most forces, and a bracket [m] below which the force jumps.
+_MOST, _SHORTEST = 40, 1e-12
 
 #: Longitudinal and lateral force [N]; None where the creepage is given.
 Force = tuple[float | None, float | None]
@@ -106,3 +110,25 @@ def rising_root(
     while advance(root, float(residual(float(root.x))), shortest, most):
         pass
     return Root(float(root.x), float(root.value), bool(root.beyond))
+
+
+def depth_under(
+    force: Callable[[float], float], load: float, start: float | None, tolerance: float
+) -> tuple[float, float] | None:
+    """Return the relative error of a load [N] > 0 and the depth below first touch that carries it best [m]; None if none does.
+
+    F^(2/3) is nearly linear in the depth (Hertz). Where the force jumps, the depth is the best of those that were tried.
+    `force` returns the force at a depth; the search begins at `start`, and ends at an error of `tolerance`.
+    """
+    target, tried = load ** (2.0 / 3.0), []
+
+    def residual(depth: float) -> float:
+        found = force(depth)
+        tried.append((abs(found - load), depth))
+        return 0.0 if tried[-1][0] <= tolerance * load else max(found, 0.0) ** (2.0 / 3.0) - target
+
+    first = min(start or 1e-4 * (load / 1e5) ** (2.0 / 3.0), 0.5 * DEEPEST)
+    if rising_root(residual, first, target / first, (0.0, DEEPEST), shortest=_SHORTEST, most=_MOST).beyond:
+        return None
+    missed, depth = min(tried)
+    return missed / load, depth

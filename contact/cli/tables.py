@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
@@ -49,14 +49,12 @@ def show_table(
 STUDY = (".html", ".md", ".json", ".csv")
 
 
-def show_study(found: Any, *, as_json: bool, out: Sequence[Path] | None, notes: Iterable[str] = ()) -> None:
-    """Print the tables and notes of a study, or its JSON, and write its files."""
+def show_study(found: Any, *, as_json: bool, out: Sequence[Path] | None) -> None:
+    """Print the tables of a study, or its JSON, and write its files."""
     if as_json:
         typer.echo(document(json.loads(found.json())))
     else:
         console = Console()
         for table in found.tables():
             show_table(table.caption, table.headings, table.rows, console)
-        for note in notes:
-            console.print(note, style="dim", highlight=False)
     write_all(found, out or [])

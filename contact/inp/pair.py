@@ -15,7 +15,7 @@ from contact.errors import ContactError, require_number
 from contact.geometry.flexible import WheelOffset
 from contact.geometry.records import Pose, Velocity
 from contact.geometry.surfaces import SurfacePatch
-from contact.given_force import rising_root
+from contact.given_force import depth_under
 from contact.halfspace import GridSolution, Normal
 from contact.halfspace.lattice import Lattice
 from contact.halfspace.parts import norm_of_parts
@@ -31,7 +31,6 @@ from contact.inp.search import Search
 from contact.inputs.creepage import Creepage
 from contact.instance.ownership import within
 from contact.kernels.enumerations import Height
-from contact.kernels.geometry.settle import DEEPEST
 from contact.kernels.records import LARGEST_ANGLE
 from contact.pair.curved import Elements
 from contact.pair.elastic_rail import ElasticRail
@@ -44,8 +43,8 @@ from contact.results import Status
 
 #: Largest roll [rad], more than a wheelset has. The limit of yaw stays: beyond it the search misses contacts.
 _LARGEST_ROLL = 0.3
-#: Search of a height: tolerance over the force, relative error above which the status tells of it, bracket [m], most steps.
-_TOLERANCE, _MISSED, _SHORTEST, _MOST = 3e-5, 1e-3, 1e-10, 40
+#: Search of a height: tolerance over the force, and relative error above which the status tells of it.
+_TOLERANCE, _MISSED = 3e-5, 1e-3
 
 
 class _Pose(Pose):
@@ -163,32 +162,27 @@ class _FilePair(TransientPair):
     def _under(self, vertical: float, at: Instant) -> PairSolution:
         """Return the solution under a vertical force, from whole solutions at heights, of which few are needed.
 
-        F^(2/3) is nearly linear in the depth (Hertz). The force of KPEC, and that of lobes at the limits of their distance,
-        jumps; then the height is the best of those that were tried.
+        The force of KPEC, and that of lobes at the limits of their distance, jumps; then the height is the best of those that
+        were tried.
         """
-        target = vertical ** (2.0 / 3.0)
-        tried: list[tuple[float, float]] = []
         found: PairSolution | None = None
+        last = 0.0
         within(self.pair.found)(Height.PENETRATION, 0.0)
         touch = self.pair.z
 
-        def residual(depth: float) -> float:
-            nonlocal found
-            self.pair.space.motion[0].z = touch + depth
+        def force(depth: float) -> float:
+            nonlocal found, last
+            self.pair.space.motion[0].z, last = touch + depth, depth
             found = self._solution(within(self.pair.found)(), at)
-            tried.append((abs(found.Q - vertical), depth))
-            return 0.0 if tried[-1][0] <= _TOLERANCE * vertical else max(found.Q, 0.0) ** (2.0 / 3.0) - target
+            return found.Q
 
-        rigid = min(1e-4 * (vertical / 1e5) ** (2.0 / 3.0), 0.5 * DEEPEST)
-        start = (self._depth if self.case.continues else None) or rigid
-        root = rising_root(residual, start, target / start, (0.0, DEEPEST), shortest=_SHORTEST, most=_MOST)
-        best = min(tried)
-        if best != tried[-1]:
-            residual(best[1])
-        self._depth = best[1]
-        if found is None or root.beyond:
+        best = depth_under(force, vertical, self._depth if self.case.continues else None, _TOLERANCE)
+        if best is not None and best[1] != last:
+            force(best[1])
+        if found is None or best is None:
             raise ContactError(f"FZ = {vertical:g}: no height was found at which the wheel carries it on this rail")
-        return replace(found, status=Status.NOT_CONVERGED) if best[0] > _MISSED * vertical else found
+        missed, self._depth = best
+        return replace(found, status=Status.NOT_CONVERGED) if missed > _MISSED else found
 
     def _true(self, patch: SurfacePatch) -> Elements:
         rows = bent.elements(self.pair, patch, self._pose, self.outlines, patch.gap.dy) if self.conformal else None

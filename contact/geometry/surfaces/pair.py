@@ -18,7 +18,7 @@ from contact.geometry.surfaces import compiled
 from contact.geometry.surfaces.frame import Frame
 from contact.geometry.surfaces.surface import RailSurface, WheelSurface
 from contact.geometry.wheelset import SAMPLES, TAPE_FROM_FLANGE_BACK, place_of_rail
-from contact.given_force import rising_root
+from contact.given_force import depth_under
 from contact.halfspace.gap import Division, Gap
 from contact.halfspace.lattice import Lattice
 from contact.halfspace.norm import norm
@@ -31,13 +31,11 @@ from contact.kernels.enumerations import Height
 from contact.kernels.geometry.elements import fill_distance, find
 from contact.kernels.geometry.prepare import move
 from contact.kernels.geometry.section import AWAY
-from contact.kernels.geometry.settle import DEEPEST
 from contact.kernels.records import MAX_PATCHES
 
 Range = tuple[float, float, float, float]
 ROWS = COLUMNS = 60
-#: Search under a load: most forces, their tolerance over the load, and [m] of the height below which the force jumps.
-_MOST, _LOAD_TOLERANCE, _SHORTEST = 40, 1e-5, 1e-12
+_LOAD_TOLERANCE = 1e-5  # of a force, over the load
 #: The overlap of a patch is measured on this many points along each side, at least twice, at most so many times. Where it
 #: reaches an edge of their range, this becomes longer by a share.
 _POINTS, _TWICE, _PASSES, _LONGER = 41, 2, 6, 0.4
@@ -274,27 +272,27 @@ class SurfacePair(Posed):
     def settle(self, load: float, start: float | None = None) -> float:
         """Set the height at which the pressures of the half space carry a vertical load [N]; return its relative error.
 
-        F^(2/3) is nearly linear in the penetration (Hertz). Where a surface ends or has an edge, the force may jump with z.
-        Then the height is the best of those tried. The search begins at the penetration `start` [m].
+        Where a surface ends or has an edge, the force may jump with z. Then the height is the best of those tried. The search
+        begins at the penetration `start` [m].
         """
         if load <= 0.0:
             self._search(Height.PENETRATION, 0.0)
             return 0.0
-        target = load ** (2.0 / 3.0)
-        tried: list[tuple[float, float, float]] = []
+        heights: dict[float, float] = {}
 
-        def residual(depth: float) -> float:
-            force = within(self.carried)(Height.PENETRATION, depth)
-            tried.append((abs(force - load), self.z, depth))
-            return 0.0 if tried[-1][0] <= _LOAD_TOLERANCE * load else force ** (2.0 / 3.0) - target
+        def force(depth: float) -> float:
+            found = within(self.carried)(Height.PENETRATION, depth)
+            heights[depth] = self.z
+            return found
 
-        p = min(start or 1e-4 * (load / 1e5) ** (2.0 / 3.0), 0.5 * DEEPEST)
-        if rising_root(residual, p, target / p, (0.0, DEEPEST), shortest=_SHORTEST, most=_MOST).beyond:
+        best = depth_under(force, load, start, _LOAD_TOLERANCE)
+        if best is None:
             raise ContactError(
                 f"load = {load:g}: no z was found at which the {self.side} wheel carries it on this rail"
             )
-        missed, self.space.motion[0].z, self.depth = min(tried)
-        return missed / load
+        missed, self.depth = best
+        self.space.motion[0].z = heights[self.depth]
+        return missed
 
     @one_thread
     def carried(self, mode: int = Height.GIVEN, amount: float = 0.0) -> float:
