@@ -56,10 +56,7 @@ _CONTACT_EXAMPLES = (
         "and slides to the right: the force points to the left",
     ),
 )
-_STIFFNESS = (
-    "Reading creep_stiffness takes about one step more in a native FMU, two for hosts with Python. Record it only where it is "
-    "needed."
-)
+_STIFFNESS = "Reading creep_stiffness takes about one step more. Record it only where it is needed."
 _PAIR_DEFAULTS = (
     "The start values are a right wheel of a centred wheelset at 20 m/s under 80 kN. The height of the wheelset is found so "
     "that the contact carries this load."
