@@ -82,9 +82,8 @@ proof: $(READY)   ## write published cases beside ours to docs/check/proof.md
 bank: $(READY)    ## run a folder of CONTACT's input files, BANK=folder, and write the tables of docs/use/from_contact.md
 	PYTHONPATH=. $(BIN)/python benchmarks/contact_bank.py $(BANK) --write docs/use/from_contact.md
 
-smoothness: $(READY) ## write jumps, noise and resolution of sweeps to docs/check/smoothness.md; try random cases
+smoothness: $(READY) ## write jumps, noise and resolution of sweeps to docs/check/smoothness.md
 	PYTHONPATH=. $(BIN)/python benchmarks/smoothness.py --write docs/check/smoothness.md
-	PYTHONPATH=. $(BIN)/python benchmarks/robustness.py --cases 10000
 
 coupling: $(READY) ## write the largest stable steps of the coupling schemes to docs/check/coupling.md
 	PYTHONPATH=. $(BIN)/python benchmarks/coupling.py --write docs/check/coupling.md

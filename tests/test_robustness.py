@@ -1,4 +1,4 @@
-"""Hundreds of random but physical cases for every pair of methods. benchmarks/robustness.py runs 10⁵."""
+"""Hundreds of random but physical cases for every pair of methods."""
 
 import pytest
 
