@@ -12,8 +12,10 @@ from contact.kernels.geometry.search import size_of
 from contact.kernels.geometry.settle import DEEPEST, begin, carried, describe, first_depth, settle
 from contact.kernels.ledger import enter
 from contact.kernels.normal.press import press
+from contact.kernels.normal.strip_halfspace import strips_under
 from contact.kernels.pipeline import complete_pressure, roll_case
 from contact.kernels.records import LARGEST_CREEPAGE, MAX_PATCHES
+from contact.kernels.result import clear
 from contact.kernels.resultants import (
     add_results,
     add_wrench,
@@ -34,8 +36,11 @@ _MOST, _SHORTEST, _TOLERANCE, _ACCEPTABLE = 20, 1e-14, 1e-9, 1e-3
 _SHARE, _JUMP = 0.25, 6
 #: A trial is brief where the one before has missed the force by more than this share.
 _ROUGH = 1e-3
-#: Methods that iterate: target; residual that counts as noise of the iteration after so many such trials.
-_ITERATED, _NOISE, _IDLE = 2e-6, 1e-4, 2
+#: Methods that iterate: target, the noise of their force at one height; residual that counts as noise after so many such
+#: trials, and where a patch finds no rest, so that another trial of a millisecond would find another force.
+_ITERATED, _NOISE, _IDLE, _RESTLESS = 1e-5, 1e-4, 2, 5e-4
+#: Iterations up to which a solution is a start for the next trial. What takes more may have two solutions at one height.
+_QUICK = 8
 #: Target and accepted residual on surfaces that change along the way, the second with friction. On the edge of a fresh flat the
 #: force is not smooth in z.
 _ROUGHER, _ACCEPTABLE_ROUGH = 1e-7, 1e-2
@@ -228,10 +233,49 @@ def _begin_under(force, search, root):
 
 
 @kernel
-def _from_nothing(n, arrays):
-    """Prepare to solve the `n` patches of a search without a start. Return n."""
-    arrays.memory[:] = 0.0
+def _press_under(mode, force, root, arrays):
+    """Solve the normal problem of the single patch of the last search for the force, not for its approach.
+
+    Set the depth to the one at which it is carried. With Height.VERTICAL that is the depth at which friction leaves the force.
+    """
+    patch, case, result = arrays.search.patches[0], arrays.patch_case[0], arrays.result[0]
+    set_case(patch, arrays.search.motion[0], arrays.case[0], case)
+    cosine = math.cos(patch.angle) * math.cos(patch.pitch)
+    samples, of_patch = workspace_of(0, arrays)
+    clear(result)
+    n_strips = strips_under(force / cosine, samples, case, of_patch, result)
+    if n_strips == 0 or abs(result.N * cosine - force) > _ROUGH * force or not result.stiffness > 0.0:
+        return
+    rise, growth = (result.approach - patch.approach) / cosine, result.stiffness / result.N * cosine
+    if mode == Height.VERTICAL:
+        case.amount = result.approach
+        _solve(1, n_strips, True, False, arrays)
+        vertical = -arrays.total[0].Fz
+        if not vertical > 0.0:
+            return
+        rise += 1.5 * ((force / vertical) ** (2.0 / 3.0) - 1.0) / growth
+    depth = root.x + rise
+    if root.first < depth < root.last:
+        begin_root(root, depth, root.slope, root.first, root.last)
+
+
+@kernel
+def _start_of(n, quick, arrays):
+    """Prepare to solve the `n` patches of a search, which start from the last trial if it was `quick`. Return n."""
+    if not quick:
+        arrays.memory[:] = 0.0
     return _prepared(n, arrays)
+
+
+@kernel
+def _is_restless(n, arrays):
+    """Return whether a loaded patch of the last trial found no rest in time: it left no start."""
+    piece = (arrays.memory.size - 3) // MAX_PATCHES
+    for k in range(n):
+        loaded = n == 1 or arrays.contacts[k].N > 0.0
+        if loaded and arrays.memory[1 + k * piece] == 0.0:
+            return True
+    return False
 
 
 @kernel
@@ -239,8 +283,10 @@ def _solve_under(mode, force, arrays):
     """As `solve_pair` for Height.LOAD and Height.VERTICAL: find the height by bracketed secants over the own forces.
 
     The force grows with the power 3/2 of the depth, so the secants are those of its power 2/3. The slope at the first trial is
-    that of the normal method, right to some per cent. All trials start from nothing, so the answer is that of the height
-    alone. Under a load, a single patch has no tangential problem before the height is found. Where the force jumps over the
+    that of the normal method, right to some per cent. Interacting strips of a single patch are first solved for the force,
+    which brings the height within about the noise of theirs. No trial starts from another pose, and only from a trial before
+    that came to rest quickly, so the answer does not depend on the way, and differs from that of the height alone by this
+    noise. Under a load, a single patch has no tangential problem before the height is found. Where the force jumps over the
     load, the nearest height found is the answer, with the status NOT_CONVERGED.
     """
     search, total, motion, root = arrays.search, arrays.total[0], arrays.search.motion[0], arrays.roots[2]
@@ -257,11 +303,18 @@ def _solve_under(mode, force, arrays):
     tolerance = max(_ROUGHER if changing else _TOLERANCE, _ITERATED if iterated else 0.0)
     acceptable = _ACCEPTABLE_ROUGH if changing and mode == Height.VERTICAL else _ACCEPTABLE
     best, z_best, mark, missing, idle = math.inf, touch, math.inf, math.inf, 0
+    starts, quick = iterated and not changing, False
+    by_load = starts and not 0.0 < arrays.case[0].pressure_limit < math.inf
     while True:
         z = touch + root.x
         if changing:  # grids that are laid for another height would change the force
             begin(search, z)
-        n = _from_nothing(describe(search, z, nodes), arrays)
+        n = _start_of(describe(search, z, nodes), quick, arrays)
+        if by_load and n == 1:
+            _press_under(mode, force, root, arrays)
+            by_load, missing, quick = False, 0.0, arrays.result[0].iterations <= _QUICK
+            continue
+        by_load = False
         pressed = _press_patch(0, arrays) if n == 1 else -1
         rolls = mode == Height.VERTICAL or n != 1
         brief = rolls and missing > _ROUGH  # this trial will hardly be the last one
@@ -281,7 +334,8 @@ def _solve_under(mode, force, arrays):
         if missing < _SHARE * mark:
             mark, idle = missing, 0
         goes_on = advance(root, max(reached, 0.0) ** (2.0 / 3.0) - force ** (2.0 / 3.0), _SHORTEST, _MOST)
-        noise = iterated and best <= _NOISE and idle >= _IDLE
+        noise = iterated and ((best <= _NOISE and idle >= _IDLE) or (best <= _RESTLESS and _is_restless(n, arrays)))
+        quick = starts and n == 1 and arrays.result[0].iterations <= _QUICK
         if missing <= tolerance or noise or idle >= _JUMP or not goes_on:
             break
     motion.missed = best
@@ -291,7 +345,7 @@ def _solve_under(mode, force, arrays):
     if z != z_best or brief or (n > 1 and enters):
         if changing:
             begin(search, z_best)
-        n = _from_nothing(describe(search, z_best, nodes), arrays)
+        n = _start_of(describe(search, z_best, nodes), quick, arrays)
         _solve(n, -1, False, enters, arrays)
     elif not rolls:
         _solve(n, pressed, False, enters, arrays)

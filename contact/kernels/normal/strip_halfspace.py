@@ -232,8 +232,8 @@ def _iterate(problem, state, most):
 
 
 @kernel
-def _solve(sep, case, workspace, result):
-    """Solve the normal problem in the given orientation."""
+def _solve(sep, case, load, workspace, result):
+    """Solve the normal problem in the given orientation, for a `load` > 0 [N] instead of what the case says."""
     space, strips, memory = workspace.space, workspace.strips, workspace.space.memory
     n_strips = analyn(sep, case, workspace.rule.across, space.grid, strips, result)
     if n_strips == 0:
@@ -241,8 +241,8 @@ def _solve(sep, case, workspace, result):
         return 0
     n = workspace.rule.across.nodes.size
     modulus = case.G / (1.0 - case.nu)
-    by_load = case.load_kind != LoadKind.APPROACH
-    amount = case.amount if by_load else case.amount - result.touch
+    by_load = load > 0.0 or case.load_kind != LoadKind.APPROACH
+    amount = load if load > 0.0 else case.amount if by_load else case.amount - result.touch
     tolerance = case.tolerance if case.tolerance > 0.0 else TOLERANCE
     skew, unit = _skew(n_strips, strips), 1.0 / (math.pi * modulus)
     start_low, start_high = result.edges[0], result.edges[2 * int(strips[Strip.PATCH, n_strips - 1]) + 1]
@@ -271,7 +271,7 @@ def _solve(sep, case, workspace, result):
     lone = skew > 0.0 and _level_lone(n, n_panels, space.vectors)
     count = _report(problem, state.approach, n_panels)
     # parts of strips would make up for the pressure that was taken away
-    result.pmax = 0.0 if lone else peak_between_strips(count, problem)
+    result.pmax = 0.0 if lone or load > 0.0 else peak_between_strips(count, problem)
     if not rests and result.status != Status.OUT_OF_RANGE:
         result.status = Status.NOT_CONVERGED
     elif result.status == Status.OUT_OF_RANGE:
@@ -283,6 +283,17 @@ def _solve(sep, case, workspace, result):
 
 
 @kernel
+def strips_under(load, sep, case, workspace, result):
+    """As `strip_halfspace`, for a `load` > 0 [N] with ANALYN's start at the approach of the case; no peak is read then."""
+    image, space = is_image(sep.g), workspace.space
+    face(image, space.memory)
+    n = _solve(turn_samples(sep, image, space.turned), case, load, workspace, result)
+    if image:
+        turn_back(n, workspace.strips, result.edges)
+    return n
+
+
+@kernel
 def strip_halfspace(sep, case, workspace, result):
     """Solve the normal problem. Results are those of `analyn`, which gives the start and the local aspect ratios.
 
@@ -290,9 +301,4 @@ def strip_halfspace(sep, case, workspace, result):
     ends came to rest. With the status NOT_CONVERGED the result is the best iterate if its changes were small, and
     ANALYN's solution otherwise. Mirror images have mirrored answers (`orientation`).
     """
-    image, space = is_image(sep.g), workspace.space
-    face(image, space.memory)
-    n = _solve(turn_samples(sep, image, space.turned), case, workspace, result)
-    if image:
-        turn_back(n, workspace.strips, result.edges)
-    return n
+    return strips_under(0.0, sep, case, workspace, result)
