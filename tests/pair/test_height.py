@@ -1,4 +1,7 @@
-"""The height that a pair finds under a load is the height of that load: solved there from nothing it is the same answer."""
+"""The height that a pair finds under a load is the height of that load: solved there from nothing it is the same answer.
+
+Strips that interact have the noise of their iteration between both: 6e-6 of the force in the median, 1e-4 at most.
+"""
 
 import math
 from dataclasses import replace
@@ -12,9 +15,11 @@ from contact.geometry.surfaces import SurfacePair
 from contact.geometry.wheelset import Pair, Pose, Velocity
 from contact.inputs.material import STEEL
 from contact.instance import workspace
+from contact.kernels.enumerations import NormalFamily
 from contact.pair import WheelRailPair
 
 VELOCITY = Velocity(forward=20.0)
+NOISE = 1e-4  # of the force of strips at one height, which have started from another one
 WHEEL, RAIL = profile.s1002(), profile.rail_60e1(inclination=1 / 40)
 #: Tread, flange root, flange; two patches at y = 6.37 mm on the worn rail.
 POSES = [
@@ -38,16 +43,17 @@ def assert_same_from_nothing(pair, pose, kind, within, force=70e3, **options):
     pair.forget()
     again = pair.solve(Pose(pose.y, found.z, pose.roll, pose.yaw), VELOCITY, **options)
     assert carried(again, kind) == pytest.approx(force, rel=within)
-    np.testing.assert_array_equal(again.force, found.force)
-    assert again.max_pressure == found.max_pressure
+    noise = NOISE if pair.arrays.case["normal_family"][0] == NormalFamily.STRIP_HALFSPACE else 0.0
+    np.testing.assert_allclose(again.force, found.force, rtol=0.0, atol=noise * force)
+    assert again.max_pressure == pytest.approx(found.max_pressure, rel=noise, abs=0.0)
 
 
 @pytest.mark.parametrize("kind", ["load", "vertical"])
 @pytest.mark.parametrize(
-    ("normal", "within"), [("analyn", 1e-8), ("hertz", 1e-8), ("stripes_a", 1e-8), ("strip_halfspace", 1.5e-4)]
+    ("normal", "within"), [("analyn", 1e-8), ("hertz", 1e-8), ("stripes_a", 1e-8), ("strip_halfspace", 5e-4)]
 )
 def test_a_height_found_under_a_load_carries_this_load(normal, within, kind):
-    """The force of interacting strips jumps by 1.2e-4 at the third pose and 70 kN, by less than 1e-6 at nearly all others."""
+    """At the third pose and 70 kN the strips find no rest, and their force jumps by some 1e-4, at others by 1e-5."""
     pair = WheelRailPair(Pair(WHEEL, RAIL), normal=normal)
     for pose in POSES:
         assert_same_from_nothing(pair, pose, kind, within)
@@ -73,14 +79,24 @@ def test_a_height_found_on_surfaces_carries_the_load(kind):
 
 
 @pytest.mark.parametrize("kind", ["load", "vertical"])
-def test_three_trials_find_the_height_on_average(kind):
-    """There were ten, and each of them was a whole solution; then 3.4."""
+def test_two_trials_find_the_height_on_average_after_a_solution_for_the_load(kind):
+    """There were ten, and each of them was a whole solution; then 3.4, and none for the load."""
     pair, counts = WheelRailPair(Pair(WHEEL, RAIL)), []
     for y in np.linspace(-4e-3, 6e-3, 21):
         assert pair.solve(Pose(y=y), VELOCITY, **{kind: 80e3}).status is not Status.NOT_CONVERGED
         counts.append(int(pair.arrays.roots["evaluations"][-1]))
-    assert np.mean(counts) < 3.3
-    assert max(counts) <= 6
+    assert np.mean(counts) < 2.2
+    assert max(counts) <= 5
+
+
+@pytest.mark.parametrize(("y", "yaw"), [(5.54e-3, -17.9e-3), (5.48e-3, -8.79e-3), (5.53e-3, -17.3e-3)])
+def test_a_patch_that_finds_no_rest_ends_the_search_within_its_noise(y, yaw):
+    """Each trial of such patches found another force, by some 1e-4, so there were 14 of them, 12 ms together."""
+    pair, force = WheelRailPair(Pair(WHEEL, RAIL)), 80e3
+    found = pair.solve(Pose(y=y, yaw=yaw), VELOCITY, load=force)
+    assert found.status is not Status.NOT_CONVERGED
+    assert pair.arrays.roots["evaluations"][-1] <= 5
+    assert carried(found, "load") == pytest.approx(force, rel=5e-4)
 
 
 @pytest.mark.parametrize("kind", ["load", "vertical"])

@@ -74,7 +74,14 @@ def test_bins_under_a_force_are_those_at_the_height_that_carries_it(force, metho
         at_height.forget()
         at_height.solve(replace(pose, z=z), VELOCITY, distance=distance)
     assert under.arrays.ledger.bins.any()
-    np.testing.assert_array_equal(under.arrays.ledger.bins, at_height.arrays.ledger.bins)
+    found, wanted = under.arrays.ledger.bins, at_height.arrays.ledger.bins
+    if methods is METHODS:
+        np.testing.assert_array_equal(found, wanted)
+    else:  # with the noise of strips that start from another height, also where they end
+        for row, right in zip(found.reshape(-1, found.shape[-1]), wanted.reshape(-1, wanted.shape[-1]), strict=True):
+            np.testing.assert_allclose(
+                row, right, rtol=0.0, atol=1e-3 * np.abs(right[np.isfinite(right)]).max(initial=0.0)
+            )
 
 
 def test_a_softer_rail_loses_more_and_nothing_else_changes():

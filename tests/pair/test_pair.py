@@ -47,8 +47,11 @@ def test_equals_search_and_separate_solution_of_every_patch(seed, load, conforma
     pair.forget()
     actual = pair.solve(pose, velocity, load=load, irregularity=rail, friction=friction)
     exact = 1e-12
-    if load:
-        pose = replace(pose, z=actual.z)
+    if load:  # interacting strips start from a trial there, and from nothing here
+        pose, found = replace(pose, z=actual.z), actual
+        pair.forget()
+        actual = pair.solve(pose, velocity, irregularity=rail, friction=friction)
+        np.testing.assert_allclose(found.force, actual.force, rtol=0.0, atol=1e-4 * load)
     patches = pair.pair.contacts(pose, velocity, irregularity=rail)
     assert len(actual.contacts) == len(patches) >= 1
     force, damage = np.zeros(3), []
@@ -94,8 +97,8 @@ def test_vertical_parts_of_the_normal_forces_carry_the_load(normal):
     s = pair.solve(Pose(y=6.385e-3), load=80e3)
     assert 1 <= len(s.contacts) <= 3
     missed = abs(sum(c.N * math.cos(c.angle) for c in s.contacts) / 80e3 - 1.0)
-    # strips that iterate are found to 1e-6; of `semi_winkler` the load has a step of 5e-6 here
-    within = {"strip_halfspace": 1e-6, "semi_winkler": 1e-5}.get(normal, 2e-9)
+    # strips that iterate are found to 1e-5, the noise of their force; of `semi_winkler` the load has a step of 5e-6 here
+    within = {"strip_halfspace": 1e-5, "semi_winkler": 1e-5}.get(normal, 2e-9)
     assert missed < within if METHODS.normal[normal].continuous else missed < 1e-3 or s.status is Status.NOT_CONVERGED
 
 
