@@ -124,10 +124,11 @@ def about_gap(limit: float) -> str:
 
 
 def about_beyond(largest: float) -> str:
-    """Return what is wrong where more than a share `largest` of the load is on shapes beyond the table of creep forces."""
+    """Return what is wrong where more than a share `largest` of the load is on shapes beyond the table of the method."""
     return (
         f"more than {largest:g} of the load is on shapes with a/b beyond {math.exp(LOG_ASPECT_MIN):.3g} to "
-        f"{math.exp(LOG_ASPECT_MAX):.3g}, the ends of the half space's table of creep forces, which count for them: "
+        f"{math.exp(LOG_ASPECT_MAX):.3g}, the ends of the half space's table of creep forces ('fastrip_mapped', 'table'), "
+        "or beyond 0.02 to 50, those of Kalker's coefficients (other methods), which count for them: "
         "forces may be more than 0.01 of friction times load off, above 50 more than 0.1 (limits.md)"
     )
 

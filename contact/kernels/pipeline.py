@@ -12,9 +12,9 @@ from contact.kernels.normal.peak import peak_pressure
 from contact.kernels.normal.press import fill_limited, press, share_of
 from contact.kernels.rows import Element, Field, Strip
 from contact.kernels.tangential.creep_force import creep_force
-from contact.kernels.tangential.ellipses import Part, end_of_patch, place_in_load, stiffness_of
+from contact.kernels.tangential.ellipses import Part, end_of_patch, is_beyond_kalker, place_in_load, stiffness_of
 from contact.kernels.tangential.fastrip import fastrip
-from contact.kernels.tangential.fastrip_mapped import fastrip_mapped
+from contact.kernels.tangential.fastrip_mapped import estimate_patch, fastrip_mapped
 from contact.kernels.tangential.fastsim import fastsim
 
 
@@ -85,21 +85,38 @@ def set_rolling(strips: Matrix, n: int, case: Case) -> None:
         strips[Strip.TO_X, i], strips[Strip.TO_Y, i], strips[Strip.TO_PHI, i] = 0.0, 0.0, 0.0
         strips[Strip.TO_EXPONENT, i], strips[Strip.TILT, i] = 0.0, 0.0
         strips[Strip.BY_FALL_X, i], strips[Strip.BY_FALL_Y, i] = 0.0, 0.0
+        strips[Strip.BY_PULL_X, i], strips[Strip.BY_PULL_Y, i] = 0.0, 0.0
         if factor != 1.0:
             strips[Strip.BOUND, i] *= over_profile(factor, case.border, case.border_width, strips[Strip.Y, i])
 
 
 @kernel
-def _roll_patch(part, case, workspace, result):
-    """Solve the tangential problem of one patch by the method of the case."""
+def _roll_patch(part, n, case, workspace, result):
+    """Solve the tangential problem of one patch, of `n` strips in all, by the method of the case."""
     if case.tangential_family == TangentialFamily.FASTSIM:
         fastsim(part, case, workspace, result)
     elif case.tangential_family == TangentialFamily.FASTRIP_MAPPED:
-        fastrip_mapped(part, case, workspace, result)
+        fastrip_mapped(part, n, case, workspace, result)
     elif case.tangential_family == TangentialFamily.CREEP_FORCE:
         creep_force(part, case, workspace, result)
     else:
         fastrip(part, case, workspace, result)
+
+
+@kernel
+def _reads_kalker(case):
+    """Return whether the method reads Kalker's coefficients but not the table of creep forces, which is narrower."""
+    law = case.tangential
+    closed = law == Tangential.CARTER or law == Tangential.JOHNSON or law == Tangential.VERMEULEN_JOHNSON
+    return not (closed or law == Tangential.FASTRIP_MAPPED or law == Tangential.TABLE)
+
+
+@kernel
+def _part(n, first, workspace, result):
+    """Return the patch that begins at strip `first`."""
+    last = end_of_patch(workspace.strips, n, first)
+    share, x, y = place_in_load(workspace.strips, n, first, last)
+    return Part(first, last, share * result.N, x, y)
 
 
 @kernel
@@ -108,14 +125,21 @@ def _roll(n, case, workspace, result):
     workspace.space.case[0] = case
     surface = workspace.space.case[0]
     surface.mu = of_case(case)
+    pulled = case.tangential_family == TangentialFamily.FASTRIP_MAPPED and end_of_patch(workspace.strips, n, 0) < n
+    first = 0 if pulled else n
+    while first < n:  # what several patches do to each other
+        part = _part(n, first, workspace, result)
+        surface.G = stiffness_of(part, case, surface.mu * part.N, workspace)
+        estimate_patch(part, surface, workspace)
+        first = part.last
     first = 0
     while first < n:
-        last = end_of_patch(workspace.strips, n, first)
-        share, x, y = place_in_load(workspace.strips, n, first, last)
-        part = Part(first, last, share * result.N, x, y)
+        part = _part(n, first, workspace, result)
         surface.G = stiffness_of(part, case, surface.mu * part.N, workspace)
-        _roll_patch(part, surface, workspace, result)
-        first = last
+        if _reads_kalker(case) and is_beyond_kalker(workspace.strips, first, part.last):
+            result.beyond += part.N / max(result.N, 1e-300)
+        _roll_patch(part, n, surface, workspace, result)
+        first = part.last
 
 
 @kernel

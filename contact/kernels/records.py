@@ -113,7 +113,7 @@ RESULT = record(
     touch           approach at first touch [m]
     gap_error       largest remaining gap or overlap in the patch over the approach [-]
     bend            change of the contact angle over all patches of the separation [rad]
-    beyond          share of the load on shapes whose a/b is beyond the table of creep forces [-]
+    beyond          share of the load on shapes whose a/b is beyond the table that the method reads [-]
     edges:{2 * MAX_PATCHES}         lateral edges of the patches, two each [m]
     """,
 )
@@ -289,7 +289,7 @@ TOTAL = record(
     Y_over_Q        [-]; 0 without vertical force
     used_friction   sum of the creep forces over that of the normal forces [-]
     bend            largest change of the contact angle over the patches in one plane [rad]
-    beyond          largest share of a patch's load on shapes whose a/b is beyond the table of creep forces [-]
+    beyond          largest share of a patch's load on shapes whose a/b is beyond the table that the method reads [-]
     """
     + _DAMAGE,
 )

@@ -32,6 +32,11 @@ class Strip(IntEnum):
     LN_ASPECT = 21  # ln(a/b) from the normal method
     BY_FALL_X = 22  # what falling friction does to a stick zone, as a change of VX and VY (`tangential.falling`)
     BY_FALL_Y = 23
+    BY_PULL_X = 24  # what the tractions of other lobes and patches do, as a change of VX and VY (`tangential.pulls`)
+    BY_PULL_Y = 25
+    FORCE_X = 26  # estimated force of the strip [N]
+    FORCE_Y = 27
+    BEHIND = 28  # of its middle, where that force acts [m]
 
 
 class Field(IntEnum):

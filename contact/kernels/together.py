@@ -16,6 +16,7 @@ from contact.kernels.tangential.fastrip_mapped import Uneven, energy, forces_of,
 from contact.kernels.tangential.lanes import LANES, room_for
 from contact.kernels.tangential.mapped_lanes import set_block
 from contact.kernels.tangential.march import march
+from contact.kernels.tangential.pulls import is_divided, set_forces, set_pulls
 from contact.kernels.tangential.stick_zone import add_zone
 
 #: Number of copies: one for each creepage.
@@ -63,7 +64,11 @@ def roll_together(n, creepage, spin, case, workspace):
     _copy_with(n, 2, case.vx, case.vy, case.phi + spin, strips)
     _copy_with(n, 1, case.vx, case.vy + creepage, case.phi, strips)
     _copy_with(n, 0, case.vx + creepage, case.vy, case.phi, strips)
+    divided = is_divided(strips, 0, n)
     for copy in range(COPIES):
+        if divided:
+            set_forces(strips, copy * n, (copy + 1) * n, case, of_patch[2], workspace.tables)
+            set_pulls(strips, copy * n, (copy + 1) * n, (copy * n, (copy + 1) * n), case)
         set_effective(strips, copy * n, (copy + 1) * n, case, of_patch, workspace.tables)
     last = COPIES * n
     for block in range(0, last, LANES):

@@ -140,8 +140,8 @@ class Solution(MadeLater):
         `conformal`; above `BEND` its lateral force is up to a tenth of the load off. The half space in the plane does not
         tell it: 0
     beyond : share of the load on shapes that are more slender or shorter (a/b) than the ellipses of the table of creep forces,
-        which then answers with its outermost ones [-]; above `BEYOND` forces are doubtful. Only `fastrip_mapped` and `table`
-        read it
+        which then answers with its outermost ones [-]; above `BEYOND` forces are doubtful. It counts for `fastrip_mapped` and
+        `table`; for other methods that read Kalker's coefficients it is the share of the load on patches beyond them
     length, width : extent of the patch along x and y [m]
     n_patches, iterations : int
     status : Status

@@ -23,7 +23,7 @@ from contact.kernels.tangential.ellipses import mean_ellipse
 from contact.kernels.tangential.fastsim import NO_FRICTION
 from contact.kernels.tangential.skew import coupled
 from contact.kernels.tangential.table import Part, interpolated, is_beyond, signs, units
-from contact.kernels.tangential.ties import share_shape
+from contact.kernels.tangential.ties import is_read, share_shape
 
 #: What a lopsided shape has (mapped_strip.md Eq. lopsided): longitudinal creepage by lateral creepage and by spin, lateral by
 #: longitudinal, and lateral by spin if it is skewed, fitted to patches of standard profiles; most that counts of it.
@@ -71,8 +71,8 @@ def _changes(strips, first, last, case, centre, of_patch, tables):
         stiffness_x += stiff * strips[Strip.XC, i]
         limit += weight * strips[Strip.BOUND, i]
         x += weight * strips[Strip.XC, i]
-        vx += weight * (strips[Strip.VX, i] - strips[Strip.PHI, i] * strips[Strip.Y, i])
-        vy += weight * (strips[Strip.VY, i] + strips[Strip.PHI, i] * strips[Strip.XC, i])
+        vx += weight * (strips[Strip.VX, i] + strips[Strip.BY_PULL_X, i] - strips[Strip.PHI, i] * strips[Strip.Y, i])
+        vy += weight * (strips[Strip.VY, i] + strips[Strip.BY_PULL_Y, i] + strips[Strip.PHI, i] * strips[Strip.XC, i])
         phi += weight * strips[Strip.PHI, i]
     limit *= 0.5 * math.pi * case.mu
     if not limit > NO_FRICTION * G * a * b or (vx == 0.0 and vy == 0.0 and phi == 0.0):
@@ -131,13 +131,6 @@ def _set_changes(strips, first, last, i, back, case, of_patch, tables, beyond):
 
 
 @kernel
-def _is_read(i, first, last):
-    """Return whether the table is read for strip i: every other one from both ends, so that mirror images agree."""
-    k = min(i - first, last - 1 - i)
-    return k % 2 == 0 or 2 * (k + 1) == last - first  # the two in the middle
-
-
-@kernel
 def set_effective(strips, first, last, case, of_patch, tables):
     """Set the effective creepages and the map exponent of every strip of one patch, as changes.
 
@@ -147,13 +140,13 @@ def set_effective(strips, first, last, case, of_patch, tables):
     """
     before, beyond, outside, load = first, 0.0, 0.0, 0.0
     for i in range(first, last):
-        if _is_read(i, first, last):
+        if is_read(i, first, last):
             beyond = _set_changes(strips, first, last, i, max(i - before, 1), case, of_patch, tables, beyond)
             before = i
             share = strips[Strip.P0, i] * strips[Strip.A, i] * strips[Strip.DY, i]
             load, outside = load + share, outside + beyond * share
     for i in range(first + 1, last - 1):
-        if not _is_read(i, first, last):
+        if not is_read(i, first, last):
             low, high = 1.0 - strips[Strip.TIE, i], 1.0 - strips[Strip.TIE, i + 1]
             _mix(strips, i, i - 1, i + 1, low / max(low + high, 1e-300))  # 0 / 0 would be a trap
     return outside / max(load, 1e-300)

@@ -79,6 +79,13 @@ def equivalent_ellipse(strips, first, last):
 
 
 @kernel
+def is_beyond_kalker(strips, first, last):
+    """Return whether a/b of the equivalent ellipse is beyond Kalker's coefficients, which then are those of their end."""
+    a, b = equivalent_ellipse(strips, first, last)
+    return b > 0.0 and abs(math.log(a / b)) > kalker.LOG_ASPECT_MAX
+
+
+@kernel
 def mean_ellipse(strips, first, last):
     """Return the semi-axes [m] of the ellipse with the area and the mean length of the shape that is shared (`ties`).
 

@@ -43,6 +43,7 @@ from contact.kernels.tangential.march import (
     slip_at,
     stop,
 )
+from contact.kernels.tangential.pulls import is_divided, set_forces, set_pulls
 from contact.kernels.tangential.stick_zone import add_zone, begin_zone, end_zone
 from contact.kernels.tangential.ties import tie_strips
 from contact.kernels.tangential.varying import begin_varying, varies
@@ -305,9 +306,25 @@ def set_shapes(first: int, last: int, workspace: Workspace) -> OfPatch:
 
 
 @kernel
-def fastrip_mapped(part, case, workspace, result):
-    """Fill the traction, slip and stick fields of one patch. Add its forces, power, slip area and `beyond` to `result`."""
+def estimate_patch(part, case, workspace):
+    """Estimate the forces with which the strips of one of several patches pull at the others."""
     of_patch = set_shapes(part.first, part.last, workspace)
+    set_forces(workspace.strips, part.first, part.last, case, of_patch[2], workspace.tables)
+
+
+@kernel
+def fastrip_mapped(part, n, case, workspace, result):
+    """Fill the traction, slip and stick fields of one patch. Add its forces, power, slip area and `beyond` to `result`.
+
+    `n` is the number of strips of all patches. If there are several, `estimate_patch` has been called for each of them.
+    """
+    strips = workspace.strips
+    of_patch = set_shapes(part.first, part.last, workspace)
+    alone = part.last - part.first == n
+    if alone and is_divided(strips, 0, n):
+        set_forces(strips, 0, n, case, of_patch[2], workspace.tables)
+    if not alone or is_divided(strips, 0, n):
+        set_pulls(strips, part.first, part.last, (0, n), case)
     beyond = set_effective(workspace.strips, part.first, part.last, case, of_patch, workspace.tables)
     result.beyond += beyond * part.N / max(result.N, 1e-300)
     roll_patch(part.first, part.last, case, of_patch, workspace, result)

@@ -82,7 +82,11 @@ def set_block(strips, block, last, case, table, of_patch, lanes):
         lanes[Lane.BOUND + l] = bound if a > 0.0 and bound > least else 0.0
         lanes[_Input.HALF + l], lanes[_Input.AT + l] = a, strips[Strip.Y, i]
         lanes[_Input.XC + l] = strips[Strip.XC, i] - strips[Strip.OFFSET, i]
-        to_x, to_y, to_phi = strips[Strip.TO_X, i], strips[Strip.TO_Y, i], strips[Strip.TO_PHI, i]
+        to_x, to_y = (
+            strips[Strip.TO_X, i] + strips[Strip.BY_PULL_X, i],
+            strips[Strip.TO_Y, i] + strips[Strip.BY_PULL_Y, i],
+        )
+        to_phi = strips[Strip.TO_PHI, i]
         lanes[_Input.VX + l] = strips[Strip.VX, i] + strips[Strip.BY_FALL_X, i] + to_x
         lanes[_Input.VY + l] = strips[Strip.VY, i] + strips[Strip.BY_FALL_Y, i] + to_y
         lanes[_Input.PHI + l] = strips[Strip.PHI, i] + to_phi

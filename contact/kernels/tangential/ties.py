@@ -82,3 +82,10 @@ def share_shape(strips: Matrix, first: int, last: int, i: int) -> None:
     for j in range(i, first, -1):
         share *= strips[Strip.TIE, j]
         strips[Strip.SHARE, j - 1] = share
+
+
+@kernel
+def is_read(i, first, last):
+    """Return whether the table is read for strip i: every other one from both ends, so that mirror images agree."""
+    k = min(i - first, last - 1 - i)
+    return k % 2 == 0 or 2 * (k + 1) == last - first  # the two in the middle
