@@ -14,7 +14,7 @@
 #define WR_FORCE_X 1
 #define WR_FORCE_Y 2
 #define WR_BIN_ROWS 10
-#define WR_STRIP_ROWS 24
+#define WR_STRIP_ROWS 29
 #define WR_MOTION_NUMBERS 31
 #define WR_MOTION_RADIUS 16
 #define WR_MOTION_TAPE 17
@@ -228,7 +228,7 @@ typedef struct {
     double touch; /* approach at first touch [m] */
     double gap_error; /* largest remaining gap or overlap in the patch over the approach [-] */
     double bend; /* change of the contact angle over all patches of the separation [rad] */
-    double beyond; /* share of the load on shapes whose a/b is beyond the table of creep forces [-] */
+    double beyond; /* share of the load on shapes whose a/b is beyond the table that the method reads [-] */
     double edges[8]; /* lateral edges of the patches, two each [m] */
 } wr_result;
 #if defined(__STDC_VERSION__) && __STDC_VERSION__ >= 201112L
@@ -356,7 +356,7 @@ typedef struct {
     double Y_over_Q; /* [-]; 0 without vertical force */
     double used_friction; /* sum of the creep forces over that of the normal forces [-] */
     double bend; /* largest change of the contact angle over the patches in one plane [rad] */
-    double beyond; /* largest share of a patch's load on shapes whose a/b is beyond the table of creep forces [-] */
+    double beyond; /* largest share of a patch's load on shapes whose a/b is beyond the table that the method reads [-] */
     double T_gamma; /* wear number |Fx vx| + |Fy vy|, of forces and creepages [N] */
     double T_gamma_spin; /* wear number with spin, |Fx vx| + |Fy vy| + |Mz phi| [N] */
     double dissipation; /* [N] */
@@ -605,7 +605,7 @@ enum {
     X(SLIP, "slip", 0.45, 0.0, "a rolling wheel has less than 0.02; spin is negative when rolling forward, about -forward/radius") \
     X(WHEEL_LOAD, "wheel load", 5000000.0, 1000.0, "a wheel carries 20 to 150 kN; the unit is N") \
     X(BEND, "bend", 0.4, 0.0, "the contact angle changes by more than 23 degrees over the patch, which strips take as plane: a lateral force of the pressure of up to 0.1 of the load is left out, and creep forces change by 0.03 of friction times load in the median. A conformal surface has both, but the influence numbers of a plane: 0.02 to 0.06 of friction times load in the median (limits.md)") \
-    X(BEYOND, "beyond", 0.01, 0.0, "more than 0.01 of the load is on shapes with a/b beyond 0.1 to 31.6, the ends of the half space's table of creep forces, which count for them: forces may be more than 0.01 of friction times load off, above 50 more than 0.1 (limits.md)") \
+    X(BEYOND, "beyond", 0.01, 0.0, "more than 0.01 of the load is on shapes with a/b beyond 0.1 to 31.6, the ends of the half space's table of creep forces ('fastrip_mapped', 'table'), or beyond 0.02 to 50, those of Kalker's coefficients (other methods), which count for them: forces may be more than 0.01 of friction times load off, above 50 more than 0.1 (limits.md)") \
     X(GAP_ERROR, "gap_error", 0.17, 0.0, "the pressure leaves gaps or overlaps inside the patch, or surfaces are no parabolas along x; above 0.17 the largest pressure may be more than 5 % wrong (limits.md)") \
     X(GAP_ERROR_INTERACTING, "gap_error interacting", 0.03, 0.0, "the pressure leaves gaps or overlaps inside the patch, or surfaces are no parabolas along x; above 0.03 the largest pressure may be more than 5 % wrong (limits.md)") \
     X(N, "N", 1000000.0, 0.0, "a wheel carries 20 to 150 kN; do wheel and rail overlap by millimetres?")

@@ -260,10 +260,10 @@ def bend(record: str, depends: tuple[str, ...] | None = None) -> Variable:
 
 
 def beyond(record: str) -> Variable:
-    """Return how much of the load is on shapes beyond the table of creep forces."""
+    """Return how much of the load is on shapes beyond the table that the method reads."""
     return output(
         "beyond",
-        "Largest share of a patch's load on shapes whose a/b is beyond the table of creep forces. "
+        "Largest share of a patch's load on shapes whose a/b is beyond the table that the method reads. "
         f"Above {BEYOND:g} forces are doubtful",
         minimum=0.0,
         maximum=1.0,
