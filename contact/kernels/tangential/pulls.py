@@ -62,7 +62,7 @@ def set_forces(strips, first, last, case, turn, tables):
         share_shape(strips, first, last, i)
         fx, fy = _used(strips, first, last, case, turn, tables)
         left = max(1.0 - math.sqrt(fx * fx + fy * fy), 0.0)
-        behind = left / (1.0 + math.sqrt(left))
+        behind = left / (1.0 + math.sqrt(left)) if left > 0.0 else 0.0
         end = end_of_shape(strips, last, i)
         for j in range(i, end):
             a = strips[Strip.A, j]
