@@ -59,6 +59,7 @@ ITERATION = record(
     error           sum of the residuals, weighted by the strips' loads
     load            sum of these weights
     at_peak         residual of the panel with the largest pressure
+    at_strip        largest step of ln a of a strip that counts
     last_error      error over load of the last iteration
     moved           largest move of an end over the width of its panel
     left            what the mixing leaves of the step

@@ -19,7 +19,7 @@ from contact.core import kernel
 from contact.kernels.normal.brackets import damp_turns, keep_between, note_sides
 from contact.kernels.normal.descent import COARSE, descend, descend_offsets, has_one_run, straightening
 from contact.kernels.normal.ends import end_moves, go_far, have_idle_part, is_far
-from contact.kernels.normal.mixing import advance, mix
+from contact.kernels.normal.mixing import advance, largest_step, mix
 from contact.kernels.normal.notes import note, note_event
 from contact.kernels.normal.panels import EARLY_GHOST, GHOST, extend_to_ghosts, start_panels
 from contact.kernels.normal.partition import cut_idle, have_gap, join_panels, part_panels, remove_unloaded
@@ -38,8 +38,9 @@ LEFT, CLOSE = 2.0, 0.4
 #: Load-weighted mean change of ln a that counts as converged at the limit of iterations.
 ACCEPTABLE = 1e-3
 #: Iteration from which on skewed strips, up to 20 of a panel, are left at a load-weighted mean residual of CALM, wherever the
-#: ends go. More strips, and who asks for a smaller tolerance, wait until the ends are fixed.
-LATE, CALM = 12, 2e-3
+#: ends go. More strips, and who asks for a smaller tolerance, wait until the ends are fixed. Before, a strip whose ln a steps
+#: by ZIGZAG is not at rest, however little of the load that changes.
+LATE, CALM, ZIGZAG = 12, 2e-3, 0.05
 #: Iteration from which on the ends are fixed. At the corner of a punch and on rough gaps their rule has no steady solution.
 FREEZE = 16
 #: Iteration from which on the residuals are the steps, without mixing, which may go round in circles on rough gaps.
@@ -192,6 +193,7 @@ def _fill_step(problem, state):
             descend(p * n, n, width, rule.descent, vectors, frozen)
             if skewed and not is_stiff(straightening(n, state.stiff)):
                 descend_offsets(p * n, n, width, rule.descent, vectors)
+    state.at_strip = largest_step(n, n * state.n_panels, state.load, vectors) if state.cut == 0 else 0.0
     if skewed and age >= DAMPED:
         for i in range(n * state.n_panels):
             vectors[Vector.R, i] *= 0.5 if 0 < i % n < n - 1 else 1.0
@@ -305,7 +307,8 @@ def accept(problem, state):
     tolerance ε, they are at rest if |r| < ε and m < 2ε. With steps by the Jacobian, whose error is a quarter of r, they are
     if |r| and m < .4√ε and if the mixing leaves less than 2ε of the step. The last step is taken, but for a start that is at
     rest: a call that is repeated has the same bits. Skewed strips are left at |r| < `CALM` from iteration `LATE` on, many of
-    them at |r| < `ACCEPTABLE` with fixed ends. The panel with the largest pressure must be at rest by itself.
+    them at |r| < `ACCEPTABLE` with fixed ends. The panel with the largest pressure must be at rest by itself,
+    and before every strip.
     """
     age, error, moved, tolerance = state.number - state.begun, state.error, state.moved, problem.tolerance
     close = CLOSE * math.sqrt(tolerance)
@@ -317,7 +320,7 @@ def accept(problem, state):
     state.found = 0
     if _part(problem, state):
         return False
-    if (exact or settled or calm) and state.at_peak < AT_PEAK:
+    if (exact or settled or calm) and state.at_peak < AT_PEAK and (age >= LATE or state.at_strip < ZIGZAG):
         if _swings(problem, state):
             _stiffen(state)
         elif not _search(problem, state, GHOST):

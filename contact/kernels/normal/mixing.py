@@ -7,6 +7,21 @@ from contact.kernels.rows import DEPTH, Vector
 _END_WEIGHT = 1.0
 #: Largest step of the offset of a strip along x over its half length.
 _FARTHEST = 0.8
+#: Share of the load from which on the change of one strip counts.
+_FELT = 2e-5
+
+
+@kernel
+def largest_step(n, total, load, vectors):
+    """Return the largest step of ln a in Vector.R, of strips in which it changes the load by more than `_FELT`."""
+    largest = 0.0
+    for i in range(total):
+        if 0 < i % n < n - 1:
+            step = abs(vectors[Vector.R, i])
+            weight = vectors[Vector.P, i] * vectors[Vector.A, i] * vectors[Vector.HALF, i]
+            if step > largest and weight * step > _FELT * load:
+                largest = step
+    return largest
 
 
 @kernel

@@ -4,6 +4,7 @@ import math
 
 from contact.core import kernel
 from contact.kernels.normal.between_panels import distances
+from contact.kernels.normal.descent import COARSE
 from contact.kernels.normal.factors import set_factors
 from contact.kernels.normal.panels import half_lengths, is_between_loaded, lay_panels, place_middles
 from contact.kernels.normal.strip_system import assemble, solve_active
@@ -48,7 +49,26 @@ def _bend(i, vectors):
 
 
 @kernel
-def _straighten(first, n, weight, vectors):
+def is_stiff(straighten):
+    """Return whether the offsets' residuals are steps already, with this weight of straightening."""
+    return straighten > _STIFF
+
+
+@kernel
+def _weight(i, n, straighten, vectors):
+    """Return the weight of straightening of a strip.
+
+    A bend falls with the square of the strip's width. That falls with 1/n in the middle of a panel, but with 1/n² at its ends.
+    There strips are straightened as if they were as wide as the end strip of a panel of `COARSE` strips.
+    """
+    if not is_stiff(straighten):
+        return straighten
+    coarse = n / COARSE * vectors[Vector.HALF, i - i % n] / vectors[Vector.HALF, i]
+    return straighten * max(1.0, coarse * coarse)
+
+
+@kernel
+def _straighten(first, n, straighten, vectors):
     """Replace the residuals r of a panel's offsets by the steps s with s - weight·(bend by s) = r. Return their sum by load.
 
     Where strips are far narrower than long, their straightening is stiff, and the residuals themselves would swing.
@@ -61,6 +81,7 @@ def _straighten(first, n, weight, vectors):
             continue
         before, after = vectors[Vector.Y, i] - vectors[Vector.Y, i - 1], vectors[Vector.Y, i + 1] - vectors[Vector.Y, i]
         low, high = after / (before + after), before / (before + after)
+        weight = _weight(i, n, straighten, vectors)
         inverse = 1.0 / (1.0 + weight * (1.0 - low * ratios[i - 1]))
         steps[i] = (steps[i] + weight * low * steps[i - 1]) * inverse
         ratios[i] = weight * high * inverse
@@ -86,25 +107,52 @@ def stands_alone(total, vectors):
 
 
 @kernel
-def is_spike_at_end(n, n_panels, vectors):
-    """Return whether the largest pressure lies among the strips at an end of a panel, falls far inwards, and rises again."""
+def foot_of_spike(n, n_panels, vectors):
+    """Return the strip with the lowest pressure beside a spike, and the step from there to the end of its panel, 0 without one.
+
+    A spike is the largest pressure, among the strips at an end of a panel. It falls far inwards, and rises again.
+    """
     top = 0
     for i in range(n * n_panels):
         top = i if vectors[Vector.P, i] > vectors[Vector.P, top] else top
     first, highest = top - top % n, vectors[Vector.P, top]
     for step in (1, -1):
-        i, beyond, lowest = top - step, 0, highest
+        i, beyond, lowest = top - step, 0, top
         while first <= i < first + n:
             beyond += 1 if vectors[Vector.P, i] > 0.0 else 0
             i -= step
         i = top if beyond <= _AT_END * n else first - 1
         while first <= i < first + n:
             pressure = vectors[Vector.P, i]
-            lowest = min(lowest, pressure)
-            if lowest < _FALLEN * highest and pressure > _RISEN * lowest:
-                return True
+            lowest = i if pressure < vectors[Vector.P, lowest] else lowest
+            if vectors[Vector.P, lowest] < _FALLEN * highest and pressure > _RISEN * vectors[Vector.P, lowest]:
+                return lowest, -step
             i += step
-    return False
+    return 0, 0
+
+
+@kernel
+def is_spike_at_end(n, n_panels, vectors):
+    """Return whether the largest pressure is a spike at the end of a panel."""
+    _, outwards = foot_of_spike(n, n_panels, vectors)
+    return outwards != 0
+
+
+@kernel
+def level_spikes(n, n_panels, vectors):
+    """Lower spikes at ends of panels to the pressure beside them. Return whether there was one.
+
+    Their end was fixed inside the contact, where the pressure of the last strips is singular. They carry next to nothing.
+    """
+    for k in range(2 * n_panels):
+        foot, outwards = foot_of_spike(n, n_panels, vectors)
+        if outwards == 0:
+            return k > 0
+        first, i = foot - foot % n, foot
+        while first <= i < first + n:
+            vectors[Vector.P, i] = min(vectors[Vector.P, i], vectors[Vector.P, foot])
+            i += outwards
+    return True
 
 
 @kernel
@@ -123,12 +171,6 @@ def _unrest_at_peak(n, n_panels, skewed, vectors):
         if top > highest:
             highest, unrest = top, residuals / max(pressures, 1e-300)  # 0 where only end strips are loaded
     return unrest
-
-
-@kernel
-def is_stiff(straighten):
-    """Return whether the offsets' residuals are steps already, with this weight of straightening."""
-    return straighten > _STIFF
 
 
 @kernel
@@ -153,7 +195,7 @@ def fill_residuals(n, cut, skewed, straighten, vectors, state):
             if skewed and is_between_loaded(i, n, vectors):
                 a = vectors[Vector.A, i]
                 centred = -vectors[Vector.DIFFERENCE, i] / (4.0 * vectors[Vector.CURVATURE, i] * a)
-                change = centred - vectors[Vector.OFFSET, i] + straighten * _bend(i, vectors)
+                change = centred - vectors[Vector.OFFSET, i] + _weight(i, n, straighten, vectors) * _bend(i, vectors)
                 change = min(max(change, -a), a)
                 vectors[Vector.OFFSET_R, i] = change
                 error += weight * abs(change) / a if not is_stiff(straighten) else 0.0

@@ -38,7 +38,7 @@ from contact.kernels.normal.iteration import (
 from contact.kernels.normal.orientation import is_image, turn_back, turn_samples
 from contact.kernels.normal.panels import is_between_loaded
 from contact.kernels.normal.peak import peak_between_strips
-from contact.kernels.normal.residuals import AT_PEAK, is_spike_at_end, stands_alone
+from contact.kernels.normal.residuals import AT_PEAK, is_spike_at_end, level_spikes, stands_alone
 from contact.kernels.normal.start import face, forget, recall, remember
 from contact.kernels.normal.turned import turn_aspects
 from contact.kernels.records import MAX_PATCHES
@@ -252,10 +252,13 @@ def _solve(sep, case, load, workspace, result):
     begin(problem, n_panels, case.max_iterations, state)
     usable, rests = _iterate(problem, state, case.max_iterations)
     # panels of many strips more often have ends that are fixed before they arrive
-    spike = rests and skew > 0.0 and n > COARSE and is_spike_at_end(n, state.n_panels, space.vectors)
+    fine = skew > 0.0 and n > COARSE
+    spike = rests and fine and is_spike_at_end(n, state.n_panels, space.vectors)
     if (spike or not rests) and state.load > 0.0 and state.error < math.inf and case.max_iterations >= MAX_ITERATIONS:
         begin_again(problem, state)
         usable, rests = _iterate(problem, state, case.max_iterations)
+    if fine and level_spikes(n, state.n_panels, space.vectors):
+        rests = False
 
     result.iterations = state.number + 1
     if not usable:
