@@ -107,10 +107,11 @@ def stands_alone(total, vectors):
 
 
 @kernel
-def foot_of_spike(n, n_panels, vectors):
+def foot_of_spike(n, n_panels, vectors, most):
     """Return the strip with the lowest pressure beside a spike, and the step from there to the end of its panel, 0 without one.
 
-    A spike is the largest pressure, among the strips at an end of a panel. It falls far inwards, and rises again.
+    A spike is the largest pressure, at most `most` loaded strips away from an end of a panel. It falls far inwards, and rises
+    again.
     """
     top = 0
     for i in range(n * n_panels):
@@ -121,7 +122,7 @@ def foot_of_spike(n, n_panels, vectors):
         while first <= i < first + n:
             beyond += 1 if vectors[Vector.P, i] > 0.0 else 0
             i -= step
-        i = top if beyond <= _AT_END * n else first - 1
+        i = top if beyond <= most else first - 1
         while first <= i < first + n:
             pressure = vectors[Vector.P, i]
             lowest = i if pressure < vectors[Vector.P, lowest] else lowest
@@ -133,19 +134,20 @@ def foot_of_spike(n, n_panels, vectors):
 
 @kernel
 def is_spike_at_end(n, n_panels, vectors):
-    """Return whether the largest pressure is a spike at the end of a panel."""
-    _, outwards = foot_of_spike(n, n_panels, vectors)
+    """Return whether the largest pressure may be a spike of an end that was fixed inside the contact."""
+    _, outwards = foot_of_spike(n, n_panels, vectors, _AT_END * n)
     return outwards != 0
 
 
 @kernel
 def level_spikes(n, n_panels, vectors):
-    """Lower spikes at ends of panels to the pressure beside them. Return whether there was one.
+    """Lower spikes of the last loaded strip of a panel to the pressure beside them. Return whether there was one.
 
-    Their end was fixed inside the contact, where the pressure of the last strips is singular. They carry next to nothing.
+    A narrow lobe falls towards its end. The end of a spike was fixed inside the contact, where the last pressures are singular.
+    They carry little.
     """
     for k in range(2 * n_panels):
-        foot, outwards = foot_of_spike(n, n_panels, vectors)
+        foot, outwards = foot_of_spike(n, n_panels, vectors, 0.0)
         if outwards == 0:
             return k > 0
         first, i = foot - foot % n, foot
