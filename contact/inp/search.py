@@ -40,7 +40,7 @@ _HALF, _AROUND = 0.2, 4.0
 _LENGTH, _LONG, _SMALL, _ALONG = 0.125, 0.242, 0.0305, 1.5
 #: Steps across over DS: of the mesh, the same for steep slopes, and without a mesh.
 _ACROSS, _STEEP, _FINE = 0.75, 0.3, 0.3
-#: [m] by which the search looks beyond a patch; least weight of a place [m²].
+#: [m] by which the search of a mesh looks beyond a patch; least weight of a place [m²].
 _BEYOND, _LEAST = 3e-3, 1e-16
 _ABSENT = 1e-3  # [m] by which elements without a rail lie above the highest other one
 
@@ -105,7 +105,8 @@ class Search:
         heights = np.nan_to_num(self._heights(seen, rows))
         rows = rows * seen.axes[1, 1] + heights * seen.axes[2, 1]
         view = Frame.turned(seen.origin * [0.0, 1.0, 1.0], 0.0)
-        box = float(rows.min()) - _BEYOND, float(rows.max()) + _BEYOND
+        beyond = _BEYOND if self.on_mesh else 2.0 * self.steps[1]
+        box = float(rows.min()) - beyond, float(rows.max()) + beyond
         columns = seen.origin[0] + patch.gap.x
         x, y, depth = self._by_mesh(view, box, columns) if self.on_mesh else self._by_surfaces(view, box, columns)
         touching = depth > 0.0
@@ -142,7 +143,8 @@ class Search:
     def _by_surfaces(self, view: Frame, box: tuple[float, float], columns: Array) -> tuple[Array, Array, Array]:
         """Return x, y of a grid in a view and the depth there, that of the surfaces [m]."""
         y = _multiples(self.rail.first(view, 0), _FINE * self.steps[1], box)
-        x = _multiples(0.0, self.steps[0], (columns[0] - self.steps[0], columns[-1] + self.steps[0]))
+        step = _ALONG * self.steps[0]
+        x = _multiples(0.0, step, (columns[0] - step, columns[-1] + step))
         return x, y, -within(self.pair.distance)(view, x, y)
 
     def _heights(self, frame: Frame, y: Array) -> Array:
