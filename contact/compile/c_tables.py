@@ -4,10 +4,12 @@ from __future__ import annotations
 
 import numpy as np
 
-from contact.instance import workspace
-from contact.theory import force_table, kalker
+from contact.theory import force_table, kalker, strips
+
+#: How many they are.
+NUMBER = 4
 
 
 def data() -> tuple[np.ndarray, ...]:
     """Return Kalker's coefficients, the influence of strips on the centre line, that off it, and the table of creep forces."""
-    return kalker.published(), *workspace.strip_tables(), force_table.load()
+    return kalker.published(), *strips.tables(), force_table.load()

@@ -17,21 +17,8 @@ from typing import Any
 #: External symbols that the objects may need: libm and memory functions. Symbols of Python or numba are not allowed. This
 #: proves that nothing allocates, counts references or raises an exception (its pickled message would remain).
 _LIBM = {
-    "acos",
-    "asin",
-    "asinh",
-    "atan",
-    "atan2",
-    "atanh",
-    "cos",
-    "exp",
-    "expm1",
-    "fabs",
-    "log",
-    "pow",
-    "sin",
-    "sqrt",
-    "tan",
+    *("acos", "asin", "asinh", "atan", "atan2", "atanh", "cos", "exp"),
+    *("expm1", "fabs", "log", "pow", "sin", "sqrt", "tan"),
 }
 ALLOWED = _LIBM | {"memset", "memcpy", "memmove", "sched_yield"}
 

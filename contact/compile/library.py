@@ -1,10 +1,10 @@
-"""Build the library of all kernels: ``python -m contact.compile.library FOLDER [--first | --added | --systems]``.
+"""Build a part of the library of all kernels: ``python -m contact.compile.library FOLDER [PART]``.
 
-It writes objects for this machine, with the entries of Python and of the C interface, and where there is a linker the library
-beside them. With ``--first`` these have only the entries behind `contact.solve`; with ``--added`` also those functions that
-other packages add for Python (`Added`). Beside each object lies the bitcode of its kernels before LLVM optimises them. With
-``--systems`` there is instead kernels.bc, the bitcode of all kernels with all that other packages add, and what
-`objects` makes of it for all systems. `linking` then links that.
+It writes objects for this machine, and where there is a linker the library beside them. Beside each object lies the bitcode of
+its kernels before LLVM optimises them. PART is one of `contact.core.checkout`; the part without a name has all entries of
+Python but those of the half space, and the C interface. The part "added" has also those functions that other packages add for
+Python (`Added`). For "systems" there is instead kernels.bc, the bitcode of all kernels with all that other packages add, and
+what `objects` makes of it for all systems. `linking` then links that.
 
 It imports all modules that have entries (`contact.core.entry`). `contact.core.checkout` starts it, with settings of numba.
 """
@@ -22,27 +22,35 @@ from multiprocessing.process import BaseProcess
 from pathlib import Path
 from typing import Any, NamedTuple
 
+import numpy as np
+
 from contact.compile import emit
-from contact.core.checkout import is_first, modules, registered
+from contact.core.checkout import PARTS, has, modules, registered
 from contact.core.library import NAME, get_include
 from contact.version import __version__
 
 #: Beginning of the names of the functions that the C interface calls.
 PREFIX = "wrk"
-#: Large kernels of the object of patches and of that of pairs. Those of later objects that call them do so where they are.
-_OF_PATCHES = (
-    "contact.kernels.normal.press.press",
-    "contact.kernels.normal.tangent.linearise",
-    "contact.kernels.normal.tangent.follow",
-    "contact.kernels.normal.descent.fill_descent",
-    "contact.kernels.normal.factors.fill_factors",
+#: Object, in the order in which they are made → how the names of its entries of Python begin; the last one has the others too.
+_OBJECTS = {
+    "pressed": ("contact.kernels.normal.", "contact.kernels.pipeline.press_case"),
+    "rolled": tuple(f"contact.kernels.{name}." for name in ("pipeline", "solver", "tangential", "damage.assess")),
+    "pairs": ("contact.",),
+    "others": ("",),
+}
+#: Large kernels that later objects call where they are.
+_OFFERED = (
+    *(f"contact.kernels.normal.{name}" for name in ("press.press", "tangent.linearise", "tangent.follow")),
+    *(f"contact.kernels.normal.{name}" for name in ("descent.fill_descent", "factors.fill_factors")),
     *(f"contact.kernels.pipeline.{name}" for name in ("press_case", "complete_pressure", "roll_case", "solve_case")),
     *(f"contact.kernels.jacobian.{name}" for name in ("solve_with_jacobian", "derive_solved", "roll_creepages")),
     "contact.kernels.together.roll_together",
     "contact.kernels.given_force.solve_under_force",
     "contact.kernels.damage.assess.damage_kernel",
+    "contact.kernels.pair_conditions.derive_pair",
+    *(f"contact.kernels.flexible.{name}" for name in ("solve_flexible", "_solve_either_way")),
+    *(f"contact.kernels.pair.{name}" for name in ("_press_patch", "_roll_patch")),
 )
-_OF_PAIRS = ("contact.kernels.pair_conditions.derive_pair", "contact.kernels.flexible.solve_flexible")
 #: The C sources of the C interface.
 C_INTERFACE = sorted((get_include().parent / "c").glob("*.c"))
 
@@ -77,17 +85,14 @@ class Added(NamedTuple):
     python: bool = False
 
 
-def entries() -> Iterator[Any]:
-    """Yield all entries that Python calls."""
+def entries(part: str = "systems") -> Iterator[Any]:
+    """Yield all entries of a part that Python calls."""
     from contact.core.calls import Entry
 
     for path, name in modules():
-        if b"\n@entry\n" not in path.read_bytes():
-            continue
-        module = import_module(name)
-        yield from (
-            one for one in vars(module).values() if isinstance(one, Entry) and one.__module__ == module.__name__
-        )
+        if has(part, name) and b"\n@entry\n" in path.read_bytes():
+            found = vars(import_module(name)).values()
+            yield from (one for one in found if isinstance(one, Entry) and one.__module__ == name)
 
 
 def flags(folder: Path) -> list[str]:
@@ -102,22 +107,22 @@ class Constants(NamedTuple):
 
 
 class Kernels:
-    """What numba makes of all entries, and of what other packages add as far as `needed` says so.
+    """What numba makes of the entries of a part, and of what other packages add to it.
 
     No kernel can be called in this process afterwards.
     """
 
-    def __init__(self, needed: Callable[[Added], bool]) -> None:
+    def __init__(self, part: str) -> None:
         from contact.compile import c_tables
         from contact.kernels.entries import all_entries
 
-        self.of_python = list(entries())
-        self.of_c = all_entries()
+        self.of_python = list(entries(part))
+        self.of_c = {} if part in PARTS else all_entries()
         # Before machine code is switched off, since these call kernels to make their constants.
         self.added: list[Added] = []
-        for name in registered()["added"]:
-            self.added += filter(needed, import_module(name).added())
-        self.data = c_tables.data()
+        for name in registered()["added"] if part in ("added", "systems") else ():
+            self.added += [one for one in import_module(name).added() if one.python or part == "systems"]
+        self.data = [np.zeros(0)] * c_tables.NUMBER if part == "halfspace" else c_tables.data()
         emit.make_no_machine_code()
 
     @property
@@ -164,51 +169,39 @@ def write_declarations(folder: Path, ends: tuple[str, ...]) -> None:
     (folder / "wheelrail_entries.h").write_text("\n".join(lines) + "\n", encoding="utf-8")
 
 
-def write_objects(kernels: Kernels, folder: Path, *, first: bool) -> None:
-    """Write the objects for this machine: of all kernels, or only of the `first`, those behind `contact.solve`.
+def write_objects(kernels: Kernels, folder: Path) -> None:
+    """Write the objects for this machine.
 
-    A process of its own optimises these, and one those of `contact`, while numba makes what is left. A system that cannot
-    fork gets one object.
+    A process of its own optimises each while numba makes the next one. A system that cannot fork has this one alone.
     """
     from contact.core.compiled import as_c_function
 
-    data = emit.data_as_ir(kernels.data)
-    if not first and not hasattr(os, "fork"):
-        _write_object(kernels.emission(kernels.of_python, True), kernels.exported, data, folder / "kernels.o")
-        return
-    made = kernels.emission([one for one in kernels.of_python if is_first(one.function.__module__)], False)
-    if first:
-        _write_object(made, kernels.exported, data, folder / "first.o")
-        return
-    rest = [one for one in kernels.of_python if one.symbol not in made.names]
-    for one in rest:
-        if one.dispatcher.overloads:  # these entries of one patch cost nothing here, and a copy of it elsewhere
-            made.add_entry(one.symbol, as_c_function(one))
-    elsewhere = _offered(made, _OF_PATCHES)
-    beside = [_begin_object(made, kernels.exported, data, folder / "first.o")]
-    rest = [one for one in rest if one.symbol not in made.names]
-    of_contact = [one for one in rest if one.function.__module__.startswith("contact.")]
-    made = kernels.emission(of_contact, False, elsewhere)
-    elsewhere = [*elsewhere, *_offered(made, _OF_PAIRS)]
-    beside.append(_begin_object(made, kernels.exported, "", folder / "pairs.o"))
-    others = kernels.emission([one for one in rest if one not in of_contact], True, elsewhere)
-    _write_object(others, kernels.exported, "", folder / "others.o")
+    data, left = emit.data_as_ir(kernels.data), kernels.of_python
+    elsewhere: list[Any] = []
+    beside: list[BaseProcess] = []
+    for name, begins in _OBJECTS.items():
+        these = [one for one in left if f"{one.__module__}.{one.__qualname__}".startswith(begins)]
+        others = name == "others" and bool(kernels.of_c)
+        if not these and not others:
+            continue
+        made = kernels.emission(these, others, elsewhere)
+        for one in left:
+            if (
+                one not in these and one.dispatcher.overloads
+            ):  # costs nothing here, and elsewhere a copy of all it calls
+                made.add_entry(one.symbol, as_c_function(one))
+        left = [one for one in left if one.symbol not in made.names]
+        elsewhere = [*elsewhere, *(function for one in _OFFERED for function in made.offer(_kernel(one)))]
+        given, data = (made, kernels.exported, data, folder / f"{name}.o"), ""
+        if hasattr(os, "fork"):
+            beside.append(get_context("fork").Process(target=_write_object, args=given, daemon=True))
+            beside[-1].start()
+        else:
+            _write_object(*given)
     for process in beside:
         process.join()
         if process.exitcode:
             raise RuntimeError("an object of the library could not be written")
-
-
-def _begin_object(*given: Any) -> BaseProcess:
-    """Let a process of its own write an object (`_write_object`)."""
-    process = get_context("fork").Process(target=_write_object, args=given, daemon=True)
-    process.start()
-    return process
-
-
-def _offered(made: emit.Emission, names: Sequence[str]) -> list[Any]:
-    """Let other modules call kernels, by their names, where an emission has them."""
-    return [function for name in names for function in made.offer(_kernel(name))]
 
 
 def _kernel(name: str) -> Any:
@@ -242,8 +235,8 @@ def _write_object(made: emit.Emission, exported: Sequence[str], data: str, path:
     path.write_bytes(machine.emit_object(module))
 
 
-def link_for_this_machine(folder: Path, *, first: bool) -> None:
-    """Link the library by the system's compiler if there is one, with its C interface unless it has only the `first` kernels.
+def link_for_this_machine(folder: Path, part: str) -> None:
+    """Link a part of the library by the system's compiler if there is one, with its C interface if it has it.
 
     Without a compiler Python alone can use the objects.
     """
@@ -252,7 +245,7 @@ def link_for_this_machine(folder: Path, *, first: bool) -> None:
         return
     write_declarations(folder, ("",))
     options = ("-std=c11", "-shared", "-fPIC", "-O2", "-ffp-contract=off", "-fvisibility=hidden", *flags(folder))
-    in_c = [path for path in C_INTERFACE if not first or path.name == "library.c"]
+    in_c = [path for path in C_INTERFACE if part not in PARTS or path.name == "library.c"]
     command = [compiler, *options, "-o", str(folder / NAME), *map(str, (*in_c, *folder.glob("*.o"))), "-lm"]
     done = subprocess.run(command, check=False, capture_output=True, text=True)
     sys.stdout.write(done.stderr)  # a compiler without headers or a linker is like none
@@ -261,12 +254,11 @@ def link_for_this_machine(folder: Path, *, first: bool) -> None:
 def main() -> None:
     """Build into the folder that the command line names."""
     emit.show_no_warnings()
-    folder, options = Path(sys.argv[1]), set(sys.argv[2:])
-    for_systems = "--systems" in options
-    kernels = Kernels(lambda one: for_systems or ("--added" in options and one.python))
-    if not for_systems:
-        write_objects(kernels, folder, first="--first" in options)
-        link_for_this_machine(folder, first="--first" in options)
+    folder, part = Path(sys.argv[1]), "".join(sys.argv[2:])
+    kernels = Kernels(part)
+    if part != "systems":
+        write_objects(kernels, folder)
+        link_for_this_machine(folder, part)
         return
     from contact.compile import objects
 

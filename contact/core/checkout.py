@@ -1,6 +1,6 @@
-"""The library of a checkout: what it is made from, where it is kept, and how the builder is started.
+"""The library of a checkout: its parts, what each is made from, where it is kept, and how the builder is started.
 
-It is kept in the user's cache, under a name that is a hash of all that it is made from. Building needs numba.
+A part is kept in the user's cache, under a name that is a hash of all that it is made from. Building needs numba.
 """
 
 from __future__ import annotations
@@ -10,6 +10,7 @@ import getpass
 import hashlib
 import os
 import platform
+import re
 import shutil
 import subprocess
 import sys
@@ -20,6 +21,7 @@ import warnings
 from collections.abc import Iterator
 from functools import cache
 from importlib.metadata import PackageNotFoundError, version
+from importlib.util import resolve_name
 from pathlib import Path
 
 from contact.version import __version__
@@ -41,18 +43,24 @@ ENVIRONMENT = {
     "NUMBA_DISABLE_INTEL_SVML": "1",
     "NUMBA_DISABLE_ERROR_MESSAGE_HIGHLIGHTING": "1",  # of overloads that do not fit, which nobody reads
 }
-#: Modules of the kernels with the entries behind `contact.solve`, which are compiled first.
-_FIRST = (
-    *("solver", "pipeline", "separation", "quadrature", "kalker", "friction", "damage.assess", "tangential.table"),
-    *("normal.between_panels", "normal.descent", "normal.factors", "normal.influence"),
-)
+_KERNELS = "contact.kernels."
+#: Part of the library → how the names of the modules begin whose entries it has: those behind `contact.solve`, and those of the
+#: half space, which read no table. The part without a name has all but the latter, and the C interface. "systems" has all.
+PARTS = {
+    "first": (
+        *(f"{_KERNELS}{name}." for name in ("solver", "pipeline", "separation", "quadrature", "kalker", "friction")),
+        *(f"{_KERNELS}{name}." for name in ("hertz", "cubic", "damage.assess", "normal", "tangential")),
+    ),
+    "halfspace": ("contact.halfspace.", f"{_KERNELS}stress."),
+}
 #: Libraries that were not used for this time [s] are removed. At most `_MOST` are kept besides those of the last hour.
-_STALE, _RECENT, _MOST = 30 * 86400.0, 3600.0, 8
+_STALE, _RECENT, _MOST = 30 * 86400.0, 3600.0, 12
 PREFIX = "wheelrail-contact-"
+_IMPORT = re.compile(r"^\s*(?:from\s+([\w.]+)\s+import\s+(\([^)]*\)|.*)|import\s+(.*))", re.MULTILINE)
 
 
-def build(folder: Path, *options: str) -> Path:
-    """Return a folder that the builder fills, with these options. If another process does so already, wait for it."""
+def build(folder: Path, part: str = "") -> Path:
+    """Return a folder that the builder fills with a part. If another process does so already, wait for it."""
     if folder.is_dir():
         with contextlib.suppress(OSError):
             os.utime(folder)
@@ -63,7 +71,7 @@ def build(folder: Path, *options: str) -> Path:
                 made = folder.parent / f"{folder.name}.{os.getpid()}"
                 shutil.rmtree(made, ignore_errors=True)
                 made.mkdir()
-                _run_builder(made, *options)
+                _run_builder(made, part)
                 with contextlib.suppress(OSError):  # another process was faster
                     made.rename(folder)
                 shutil.rmtree(made, ignore_errors=True)
@@ -97,7 +105,7 @@ def locked(folder: Path) -> Iterator[None]:
             return
 
 
-def _run_builder(folder: Path, *options: str) -> None:
+def _run_builder(folder: Path, part: str) -> None:
     """Run the builder (`contact.compile.library`) in a process of its own. On a terminal a line says so."""
     try:
         version("numba")
@@ -108,7 +116,7 @@ def _run_builder(folder: Path, *options: str) -> None:
         ) from None
     shows = sys.stderr is not None and sys.stderr.isatty()
     begin = time.monotonic()
-    command = [sys.executable, "-m", "contact.compile.library", str(folder), *options]
+    command = [sys.executable, "-m", "contact.compile.library", str(folder), part]
     path = os.pathsep.join(filter(None, (*map(str, roots()), os.environ.get("PYTHONPATH"))))
     own = os.environ | ENVIRONMENT | {"PYTHONPATH": path}
     with subprocess.Popen(
@@ -132,13 +140,13 @@ def _run_builder(folder: Path, *options: str) -> None:
 
 
 @cache
-def fingerprint() -> str:
-    """Return a hash of what the library of this checkout is made from: version, sources, tools, processor."""
-    content = hashlib.sha256(f"{__version__} {_processor()}".encode())
+def fingerprint(part: str = "") -> str:
+    """Return a hash of what a part of the library is made from: version, sources, tools, processor."""
+    content = hashlib.sha256(f"{__version__} {part} {_processor()}".encode())
     for tool in _TOOLS:
         with contextlib.suppress(PackageNotFoundError):
             content.update(f"{tool} {version(tool)}".encode())
-    for path in sources():
+    for path in sources(part):
         content.update(f"{path.relative_to(_ROOT)}\0".encode() + path.read_bytes())
     return content.hexdigest()[:16]
 
@@ -152,12 +160,41 @@ def _processor() -> str:
     return said
 
 
-def sources() -> list[Path]:
-    """Return the sources of the library: all files with kernels, the C interface, the builder and the tables that it holds."""
-    builder = [path for name in ("core", "compile", "kernels") for path in (_HERE / name).rglob("*.py")]
+def sources(part: str = "") -> list[Path]:
+    """Return the sources of a part: its entries with all that their modules import, the builder, the tables and C that it has.
+
+    Kernels use nothing but what stands in files with kernels, or beside these in folders of that name.
+    """
+    known = _known()
+    pending = [name for name, path in known.items() if has(part, name) and _has_kernels(path)]
+    pending += [] if part == "halfspace" else ["contact.compile.c_tables"]
+    pending += [] if part in PARTS else ["contact.kernels.entries"]
+    found: set[str] = set()
+    while pending:
+        name = pending.pop()
+        if name in known and name not in found:
+            found.add(name)
+            pending += _imported(name, known[name])
+    builder = [path for name in ("core", "compile") for path in (_HERE / name).glob("*.py")]
     in_c = [path for name in ("c", "include") for path in (_HERE / name).iterdir()]
-    tables = [*(_HERE / "theory").glob("*.py"), *(_HERE / "data").glob("*creep*.csv")]  # `contact.compile.c_tables`
-    return sorted({*(path for path, _ in modules()), *builder, *in_c, *tables})
+    if part in PARTS:
+        in_c = [path for path in in_c if path.suffix == ".h" or path.name == "library.c"]
+    tables = () if part == "halfspace" else (_HERE / "data").glob("*creep*.csv")
+    return sorted({*(known[name] for name in found), *builder, *in_c, *tables})
+
+
+def _imported(name: str, path: Path) -> Iterator[str]:
+    """Yield the names of the modules that one imports, anywhere in it, and those of what it imports from them."""
+    for origin, listed, plain in _IMPORT.findall(path.read_text(encoding="utf-8")):
+        yield from re.findall(r"[\w.]+", plain)
+        if origin:
+            module = resolve_name(origin, _package(name, path))
+            yield module
+            yield from (f"{module}.{one}" for one in re.findall(r"\w+", listed))
+
+
+def _package(name: str, path: Path) -> str:
+    return name if path.stem == "__init__" else name.rpartition(".")[0]
 
 
 @cache
@@ -170,9 +207,15 @@ def registered() -> dict[str, list[str]]:
     return {"roots": [], "kernels": [], "added": [], **told.get("tool", {}).get("contact", {}).get("library", {})}
 
 
-def is_first(module: str) -> bool:
-    """Return whether the entries of a module are those behind `contact.solve`."""
-    return module.removeprefix("contact.kernels.") in _FIRST
+def part_of(module: str) -> str:
+    """Return the smallest part of the library that has the entries of a module."""
+    return next((part for part, begins in PARTS.items() if f"{module}.".startswith(begins)), "")
+
+
+def has(part: str, module: str) -> bool:
+    """Return whether a part of the library has the entries of a module."""
+    smallest = part_of(module)
+    return part in ("systems", smallest) or (part not in PARTS and smallest != "halfspace")
 
 
 def roots() -> list[Path]:
@@ -182,13 +225,18 @@ def roots() -> list[Path]:
 
 def modules() -> list[tuple[Path, str]]:
     """Return path and name of the modules with kernels in all packages that pyproject.toml lists."""
-    return [
-        (path, ".".join(path.relative_to(root).with_suffix("").parts))
+    return [(path, name) for name, path in _known().items() if _has_kernels(path)]
+
+
+def _known() -> dict[str, Path]:
+    """Return the modules, by their names, that kernels may use, and those that make the tables and the library."""
+    return {
+        ".".join(path.relative_to(root).with_suffix("").parts).removesuffix(".__init__"): path
         for root in roots()
         for name in registered()["kernels"]
         for path in sorted((root / name).rglob("*.py"))
-        if _has_kernels(path)
-    ]
+        if {"compile", "core", "theory", "kernels"} & {*path.relative_to(root).parts} or _has_kernels(path)
+    }
 
 
 def _has_kernels(path: Path) -> bool:
@@ -196,14 +244,23 @@ def _has_kernels(path: Path) -> bool:
     return any(b"\n@" + mark in text for mark in (b"kernel\n", b"entry\n", b"inlined\n"))
 
 
-def cache_folder() -> Path:
+def folder_of(part: str = "") -> Path:
+    """Return the folder of a part of the library of this checkout."""
+    return cache_folder(part) / _name(part)
+
+
+def _name(part: str) -> str:
+    return "-".join(filter(None, (PREFIX + fingerprint(part), part)))
+
+
+def cache_folder(part: str = "") -> Path:
     """Return the folder in which libraries of checkouts are kept: CONTACT_CACHE_DIR if set, else the system's for caches.
 
-    Where that cannot be written, and does not have this library, it is a folder of the user among the temporary ones.
+    Where that cannot be written, and does not have this part, it is a folder of the user among the temporary ones.
     """
     own = os.environ.get("CONTACT_CACHE_DIR")
     folder = Path(own) if own else _usual_folder()
-    if folder is not None and (_can_be_written(folder) or (folder / (PREFIX + fingerprint())).is_dir()):
+    if folder is not None and (_can_be_written(folder) or (folder / _name(part)).is_dir()):
         return folder
     try:
         temporary = Path(tempfile.gettempdir()) / f"wheelrail-contact-{_user()}"

@@ -1,7 +1,7 @@
 """The library of compiled kernels: where it is, and the addresses of its functions.
 
-A wheel holds it, in `contact/library`. A checkout builds it when it is first needed (`contact.core.checkout`), and before that
-only what is behind `contact.solve`, if no more is needed.
+A wheel holds it, in `contact/library`. A checkout builds the parts that are needed when they are needed
+(`contact.core.checkout`).
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from contact.core.checkout import PREFIX, build, cache_folder, fingerprint, is_first, registered
+from contact.core.checkout import PREFIX, build, cache_folder, fingerprint, folder_of, part_of, registered
 from contact.version import __version__
 
 _HERE = Path(__file__).parents[1]
@@ -67,12 +67,12 @@ def get_library() -> Path:
 
 def address(symbol: str, module: str) -> int:
     """Return the address of a function of the library, the entry of a module."""
-    return loaded(is_first(module)).address(symbol)
+    return loaded(part_of(module)).address(symbol)
 
 
 def constants(k: int, shape: tuple[int, ...]) -> NDArray[np.float64]:
     """Return array `k` of the constant arrays that the kernels read (`contact.compile.c_tables`). It is read-only."""
-    numbers = (ctypes.c_double * math.prod(shape)).from_address(loaded(first=True).constants(k))
+    numbers = (ctypes.c_double * math.prod(shape)).from_address(loaded("first").constants(k))
     found = np.frombuffer(memoryview(numbers).cast("B")).reshape(shape)
     found.setflags(write=False)
     return found
@@ -87,10 +87,10 @@ class Loaded:
 
 
 @cache
-def loaded(first: bool = False) -> Loaded:
-    """Return the library of this package. A checkout may build only that of the `first` entries if these are enough."""
-    whole = _whole()
-    return of_library(whole) if whole else of_folder(cached(first))
+def loaded(part: str = "") -> Loaded:
+    """Return the library of this package. A checkout may build only a part of it."""
+    whole = _whole(part)
+    return of_library(whole) if whole else of_folder(cached(part))
 
 
 def of_folder(folder: Path) -> Loaded:
@@ -154,29 +154,26 @@ def _of_objects(folder: Path) -> Loaded:
 _KEPT: list[object] = []
 
 
-def _whole() -> Path | None:
-    """Return the library with what other packages add: the installed one, or the newest that this checkout has built.
+def _whole(part: str = "") -> Path | None:
+    """Return the library with a part and what other packages add: the installed one, or the newest of this checkout.
 
     A folder that is being filled has a longer name.
     """
     if INSTALLED.is_file():
         return INSTALLED
-    found = [
-        path
-        for place in (f"systems-*/linked-*/{SYSTEM}", f"added-{'?' * 12}")
-        for path in cache_folder().glob(f"{PREFIX}{fingerprint()}-{place}/{NAME}")
-    ]
+    found = list(cache_folder().glob(f"{PREFIX}{fingerprint('systems')}-systems-*/linked-*/{SYSTEM}/{NAME}"))
+    if part != "halfspace":
+        found += cache_folder().glob(f"{PREFIX}{fingerprint()}-added-{'?' * 12}/{NAME}")
     return max(found, key=lambda path: path.stat().st_mtime, default=None)
 
 
-def cached(first: bool = False) -> Path:
-    """Return the folder of the library of this checkout, or of one with the `first` entries. Build it if it is not there."""
-    folder = cache_folder() / (PREFIX + fingerprint())
+def cached(part: str = "") -> Path:
+    """Return the folder of a part of the library of this checkout, or of a larger one. Build it if it is not there."""
+    folder = folder_of(part)
     if not folder.is_dir() and not registered()["kernels"]:
         raise ImportError(
             f"wheelrail-contact has no compiled library for {platform.system()} on {platform.machine()}: {INSTALLED} is "
             "missing. Install a wheel for this system, or build one from the sources (CONTRIBUTING.md)."
         )
-    if first and not folder.is_dir():
-        return build(folder.with_name(f"{folder.name}-first"), "--first")
-    return build(folder)
+    larger = folder_of() if part == "first" else folder
+    return build(larger) if larger.is_dir() else build(folder, part)

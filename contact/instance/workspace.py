@@ -9,7 +9,6 @@ from typing import Any
 import numpy as np
 
 from contact.arrays import Array
-from contact.core import COMPILING, library
 from contact.kernels import memory, quadrature
 from contact.kernels.arrays import (
     DerivativeArrays,
@@ -31,7 +30,7 @@ from contact.kernels.normal.descent import fill_descent
 from contact.kernels.normal.factors import fill_factors
 from contact.kernels.rows import Bin
 from contact.registry import Method
-from contact.theory import force_table, kalker
+from contact.theory import force_table, kalker, strips
 
 
 def zeros(n: int) -> Array:
@@ -79,23 +78,12 @@ def rule(n_strips: int, n_elements: int, interacting: bool) -> Rule:
     fill_probes(made.cosines, made.probes, made.spread)
     if made.columns.size > 1:
         fill_descent(
-            *strip_tables(), made.columns, made.descent
+            *strips.tables(), made.columns, made.descent
         )  # first, because it uses the columns as scratch memory
-        fill_factors(*strip_tables(), made.columns, made.factors)  # as does this
-        influence.fill_columns(made.cosine_logs, strip_tables()[0], made.columns)
+        fill_factors(*strips.tables(), made.columns, made.factors)  # as does this
+        influence.fill_columns(made.cosine_logs, strips.tables()[0], made.columns)
     _read_only(*made.across, *made[1:])
     return made
-
-
-@functools.cache
-def strip_tables() -> tuple[Array, Array]:
-    """Return U on the centre line, shape (401, 2), and over (X, ln t), shape (203, 534), from the library if there is one."""
-    if not COMPILING:
-        return library.constants(1, influence.CENTRE), library.constants(2, influence.PLANE)
-    centre, plane = np.empty(influence.CENTRE), np.empty(influence.PLANE)
-    influence.fill(centre, plane)
-    _read_only(centre, plane)
-    return centre, plane
 
 
 @functools.lru_cache(maxsize=64)
@@ -104,7 +92,7 @@ def tables(poisson_ratio: float, tabulated: bool) -> Tables:
     no_forces = np.zeros((1, 1, 1, 1, 1))
     return Tables(
         kalker.table(poisson_ratio),
-        *strip_tables(),
+        *strips.tables(),
         force_table.load() if tabulated else no_forces,
     )
 

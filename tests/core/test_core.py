@@ -115,19 +115,6 @@ def test_packed_arguments_follow_their_arrays_into_a_copy():
         assert other.words == pack(Samples, other.value).words
 
 
-def test_the_name_of_the_library_depends_on_kernels_and_the_tables_that_it_holds(tmp_path, monkeypatch):
-    kernel, other = tmp_path / "kernel.py", tmp_path / "other.py"
-    kernel.write_text("\n@kernel\ndef f():\n    pass\n")
-    other.write_text("pass\n")
-    assert checkout._has_kernels(kernel)
-    assert not checkout._has_kernels(other)
-    names = {path.name for path in checkout.sources()}
-    assert {"strip_halfspace.py", "zones.py", "motion.py", "emit.py"} <= names
-    # a library made before a table changed answered C with the old one
-    assert {"force_table.py", "creep_table.csv", "effective_creepage.csv"} <= names
-    assert not names & {"solve.py", "errors.py", "solution.py"}
-
-
 def test_the_library_of_another_processor_has_another_name(monkeypatch):
     """Machines that share a home folder would else run instructions that one of them does not have."""
     here = checkout.fingerprint.__wrapped__()
@@ -182,6 +169,17 @@ def test_a_cache_that_has_the_library_is_used_though_it_cannot_be_written(tmp_pa
     assert checkout.cache_folder() == tmp_path
 
 
+def test_a_part_that_a_cache_lacks_which_cannot_be_written_is_kept_in_a_temporary_folder(tmp_path, monkeypatch):
+    shared = tmp_path / "cache"
+    (shared / (checkout.PREFIX + checkout.fingerprint())).mkdir(parents=True)
+    monkeypatch.setattr(checkout, "_can_be_written", lambda folder: False)
+    monkeypatch.setattr(checkout.tempfile, "tempdir", str(tmp_path))
+    monkeypatch.setenv("CONTACT_CACHE_DIR", str(shared))
+    assert checkout.folder_of("").parent == shared
+    with pytest.warns(UserWarning, match="cannot be written"):
+        assert checkout.folder_of("halfspace").parent.parent == tmp_path
+
+
 def test_without_any_folder_for_the_library_a_message_names_the_variable(tmp_path, monkeypatch):
     file = tmp_path / "file"
     file.touch()
@@ -201,11 +199,11 @@ def test_the_first_solution_of_a_clone_needs_only_the_entries_that_are_compiled_
     code = """
 from contact.core import library
 folder = library.get_library().parent
-def cached(first=False):
-    if not first:
+def cached(part=""):
+    if part != "first":
         raise ImportError("the whole library")
     return folder
-library._whole, library.cached = lambda: None, cached
+library._whole, library.cached = lambda part="": None, cached
 import contact
 separation, creepage = contact.Separation.hertzian(1.1, 0.8), contact.Creepage(1e-3, 5e-4, 0.2)
 contact.solve(separation, creepage, load=8e4, derivatives=True).damage
@@ -223,7 +221,7 @@ def test_a_build_that_was_killed_is_built_anew(tmp_path):
     code = f"""
 import os, pathlib, signal
 from contact.core import checkout
-def half(folder, *options):
+def half(folder, part):
     (folder / "first.o").write_text("half")
     os.kill(os.getpid(), signal.SIGKILL)
 checkout._run_builder = half
@@ -262,7 +260,7 @@ def test_a_library_of_another_version_is_named(monkeypatch):
 
 def test_the_library_holds_the_constants_that_numba_computes(tmp_path):
     """Python reads the influence of strips from the library; a process with numba computes it."""
-    code = "from contact.instance import workspace; print([part.tobytes().hex()[:4000] for part in workspace.strip_tables()])"
+    code = "from contact.theory import strips; print([part.tobytes().hex()[:4000] for part in strips.tables()])"
     assert run(code).stdout == run(code, CONTACT_JIT="1").stdout != ""
 
 

@@ -12,6 +12,7 @@ from contact.kernels.normal.ends import end_moves, have_idle_part
 from contact.kernels.normal.panels import _is_overlapped, _summarise
 from contact.kernels.normal.partition import remove_unloaded
 from contact.kernels.rows import N_VECTOR_ROWS, Vector
+from contact.theory import strips
 
 
 @pytest.mark.parametrize("m", [1, 2, 5, 14, 16, 31])
@@ -127,7 +128,7 @@ def _two_panels(n):
 @pytest.mark.parametrize("at", [-2.0, -1.001, 1.2, 2.5, 3.9, 5.01, 9.0])
 def test_overlap_outside_the_panels_is_that_of_the_displacement(at, locus):
     """The point lies beside the strips' line too: on a yawed wheel two lobes are up to 30 mm apart along x."""
-    n, (centre, plane) = 12, workspace.strip_tables()[:2]
+    n, (centre, plane) = 12, strips.tables()
     vectors = _two_panels(n)
     vectors[Vector.XC, n:] = -1.0
     _summarise(n, 2, vectors, 1.0)

@@ -3,15 +3,15 @@
 import numpy as np
 import pytest
 
-from contact.instance import workspace
 from contact.kernels.normal.influence import anywhere
 from contact.kernels.normal.many_strips import displacement, fill_ln_X
 from contact.kernels.rows import Pair
+from contact.theory import strips
 
 
 @pytest.fixture(scope="module")
 def plane():
-    return workspace.strip_tables()[1]
+    return strips.tables()[1]
 
 
 @pytest.mark.parametrize("own", [-1, 3])

@@ -13,11 +13,12 @@ from contact.kernels.normal import influence
 from contact.kernels.normal.panels import half_lengths
 from contact.kernels.normal.start import MEM_LN_A
 from contact.kernels.rows import Vector
+from contact.theory import strips
 from reference.random_cases import KINDS
 from tests.separations import two_lobes
 
 NO_CREEP = contact.Creepage()
-CENTRE, PLANE = workspace.strip_tables()
+CENTRE, PLANE = strips.tables()
 
 
 def exact_U(X, t):

@@ -104,7 +104,7 @@ def of_this_machine() -> Path:
     linked = _linked(_compiled("systems")) / library.SYSTEM / library.NAME
     if linked.is_file():
         return linked
-    compiled = checkout.build(_compiled("added"), "--added")
+    compiled = checkout.build(_compiled("added"), "added")
     made = _linked(compiled)
     with checkout.locked(made):
         if not (made / library.NAME).is_file():
@@ -119,7 +119,7 @@ def kernels(say: Callable[[str], None] = print) -> Path:
         import ziglang  # noqa: F401 - without it the libraries could not be linked, which the user must not learn minutes later
 
         say("compiling the kernels for all systems, some minutes the first time")
-    return checkout.build(made, "--systems")
+    return checkout.build(made, "systems")
 
 
 def _compiled(what: str) -> Path:
@@ -127,8 +127,9 @@ def _compiled(what: str) -> Path:
     parts = [path for name in (".", "native", "tables") for path in (_HERE.parent / name).glob("*.py")]
     parts = [path for path in parts if path.stem not in _WITHOUT]
     models = (_ROOT / "models").rglob("*.py")
+    part = "systems" if what == "systems" else ""
     content = digest(*parts, *models, *(_ROOT / "explorer").glob("patch.py"))
-    return checkout.cache_folder() / f"{checkout.PREFIX}{checkout.fingerprint()}-{what}-{content}"
+    return checkout.cache_folder() / f"{checkout.PREFIX}{checkout.fingerprint(part)}-{what}-{content}"
 
 
 def _linked(compiled: Path) -> Path:
