@@ -75,7 +75,7 @@ Every class has tests. Of those with an asterisk a part runs every time, and all
 | --- | --- |
 | null pointers, forged states | `test_native_host.py`: `no_wrong_call_ends_the_host`\\* |
 | value references, order | `every_state_meets_every_function`, `any_function_in_any_order`, `random_calls_of_fmi_3` |
-| values | `test_native_fmu.py`: `a_bad_input_is_discarded`, `extreme_values`; `test_native_traps.py` |
+| values | `a_bad_input_is_discarded`, `extreme_values`; `test_native_traps.py` |
 | states | `a_restored_or_serialised_state`, `damaged_bytes_are_no_state` |
 | steps | `an_invalid_step_is_an_error`, `a_step_is_not_done_twice`; `test_native_discard.py` |
 | allocations, small stacks, fork, reload | `test_native_host.py`: `hard_circumstances_end_no_host`\\* |
