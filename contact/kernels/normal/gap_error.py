@@ -29,7 +29,7 @@ _LEAST_GAP = 1e-9
 
 
 @kernel
-def _summarise(n, strips, vectors):
+def summarise(n, strips, vectors):
     """Fill ln a, 1/a and p0·a of the strips: the rows Q1, Q2 and R of the vectors."""
     for j in range(n):
         a = max(strips[Strip.A, j], _LEAST)
@@ -38,10 +38,8 @@ def _summarise(n, strips, vectors):
 
 
 @kernel
-def _displacement(at, locus, strip, n, strips, vectors, plane):
-    """Return the displacement at y = at, x = locus times pi E* [N/m]. The point lies in `strip`; -1 if in none."""
-    pairs = vectors[Vector.PAIRS : Vector.PAIRS + len(Pair)]
-    lows, highs = pairs[Pair.LOW], pairs[Pair.HIGH]
+def fill_sides(at, n, strips, vectors, lows, highs):
+    """Fill the logarithms of the distances of y = `at` from the nearer and the farther side of each strip, over its a."""
     end, beyond = -math.inf, 0.0
     for j in range(n):
         y, half, ln_a = strips[Strip.Y, j], 0.5 * strips[Strip.DY, j], vectors[Vector.Q1, j]
@@ -51,9 +49,24 @@ def _displacement(at, locus, strip, n, strips, vectors, plane):
         end = y + half
         beyond = math.log(max(abs(end - at), 1e-12 * half))
         lows[j], highs[j] = min(before, beyond) - ln_a, max(before, beyond) - ln_a
+
+
+@kernel
+def displacement_at(locus, strip, n, strips, vectors, plane):
+    """Return the displacement at x = locus times pi E* [N/m], with the sides in `pairs`. `strip` is the one there or -1."""
+    pairs = vectors[Vector.PAIRS : Vector.PAIRS + len(Pair)]
+    for j in range(n):
         pairs[Pair.X, j] = abs(strips[Strip.XC, j] - locus) * vectors[Vector.Q2, j]
     fill_ln_X(n, pairs)
     return displacement(plane, vectors[Vector.R, :n], pairs, strip)
+
+
+@kernel
+def _displacement(at, locus, strip, n, strips, vectors, plane):
+    """Return the displacement at y = at, x = locus times pi E* [N/m]. The point lies in `strip`; -1 if in none."""
+    pairs = vectors[Vector.PAIRS : Vector.PAIRS + len(Pair)]
+    fill_sides(at, n, strips, vectors, pairs[Pair.LOW], pairs[Pair.HIGH])
+    return displacement_at(locus, strip, n, strips, vectors, plane)
 
 
 @kernel
@@ -101,7 +114,7 @@ def gap_error(sep, n, case, workspace, result):
     if not delta > 0.0 or n == 0:
         return 0.0
     per_modulus = (1.0 - case.nu) / (math.pi * case.G)
-    _summarise(n, strips, vectors)
+    summarise(n, strips, vectors)
     largest, k, skewed = 0.0, 0, False
     for i in range(n):
         skewed = skewed or strips[Strip.OFFSET, i] != 0.0

@@ -26,11 +26,11 @@ _PARTS = 3
 #: Strips at either side of a divided one whose pressures are taken at every part. Those beyond act smoothly.
 _NEAR = 4
 #: Least strips of a panel: the parts need room in the rows of `vectors`.
-_FEWEST = 8
+FEWEST = 8
 
 
 @kernel
-def _continues(j, strips):
+def continues(j, strips):
     """Return whether strip j begins where the one before ends. Patches beyond the largest number of them share a number.
 
     The positions of some methods' strips are not quite their middles. A gap is as wide as a strip.
@@ -45,7 +45,7 @@ def _is_beside(i, k, n, strips):
     """Return whether strip k exists and lies in the patch of strip i."""
     beside = 0 <= k < n
     for j in range(min(i, k) + 1, max(i, k) + 1):
-        beside = beside and _continues(j, strips)
+        beside = beside and continues(j, strips)
     return beside
 
 
@@ -108,7 +108,7 @@ def _displacement(at, low, high, unit, strips, logs, centre):
     total, beyond = 0.0, 0.0
     for j in range(low, high):
         y, half = strips[Strip.Y, j], 0.5 * strips[Strip.DY, j]
-        if j == low or not _continues(j, strips):
+        if j == low or not continues(j, strips):
             beyond = math.log(max(abs(at - y + half), 1e-12 * half))
         before, beyond = beyond, math.log(max(abs(at - y - half), 1e-12 * half))
         first, last = at_centre(centre, before - logs[j]), at_centre(centre, beyond - logs[j])
@@ -263,7 +263,7 @@ def peak_between_strips(n, problem):
     """
     workspace, strips = problem.workspace, problem.workspace.strips
     p, panel = strips[Strip.P0], workspace.rule.cosines.size - 1
-    if panel < _FEWEST:
+    if panel < FEWEST:
         return peak_pressure(strips, n)
     angle = math.pi / panel
     of_ellipse, top, largest = 2.0 * (math.cos(angle) - math.cos(2.0 * angle)), 0.0, 0.0

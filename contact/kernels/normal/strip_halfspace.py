@@ -37,8 +37,8 @@ from contact.kernels.normal.iteration import (
 )
 from contact.kernels.normal.orientation import is_image, turn_back, turn_samples
 from contact.kernels.normal.panels import is_between_loaded
-from contact.kernels.normal.peak import peak_between_strips
 from contact.kernels.normal.residuals import AT_PEAK, is_spike_at_end, level_spikes, stands_alone
+from contact.kernels.normal.sections import largest_pressure
 from contact.kernels.normal.start import face, forget, recall, remember
 from contact.kernels.normal.turned import turn_aspects
 from contact.kernels.records import MAX_PATCHES
@@ -274,7 +274,7 @@ def _solve(sep, case, load, workspace, result):
     lone = skew > 0.0 and _level_lone(n, n_panels, space.vectors)
     count = _report(problem, state.approach, n_panels)
     # parts of strips would make up for the pressure that was taken away
-    result.pmax = 0.0 if lone or load > 0.0 else peak_between_strips(count, problem)
+    result.pmax = 0.0 if lone or load > 0.0 else largest_pressure(count, problem)
     if not rests and result.status != Status.OUT_OF_RANGE:
         result.status = Status.NOT_CONVERGED
     elif result.status == Status.OUT_OF_RANGE:
