@@ -16,11 +16,18 @@ def _fmus(path: Path, packaging: str, *options: str | Path) -> None:
     subprocess.run(command, check=True)
 
 
+#: Friction of the track of the FMUs of vehicles, behind its curve.
+SLIPPERY = "[track.friction]\nat = [195.0, 200.0]\nright = [1.0, 0.7]\nleft = [1.0, 0.5]\n"
+
+
 def _native(path: Path) -> None:
-    """Build the native FMUs, and beside their folder one of those of vehicles."""
+    """Build the native FMUs, and beside their folder one of those of vehicles, with their scenario."""
     from reference.native import SCENARIO
 
-    _fmus(path, "native", "--vehicle", SCENARIO)
+    path.mkdir(parents=True, exist_ok=True)
+    scenario = path / "vehicle.toml"
+    scenario.write_text(SCENARIO.read_text(encoding="utf-8") + SLIPPERY, encoding="utf-8")
+    _fmus(path, "native", "--vehicle", scenario)
     native = path / "native"
     for one in [one for one in native.rglob("*") if one.stem.lower().endswith("vehicle")]:
         apart = path / "vehicles" / one.relative_to(native)

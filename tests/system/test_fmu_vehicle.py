@@ -1,12 +1,14 @@
 """The FMUs of vehicles: with contacts, and without them in coupled_vehicle.ssp. Both give the run of the one kernel."""
 
 from dataclasses import replace
+from pathlib import Path
 
 import fmpy
 import numpy as np
 import pytest
 from fmu_instance import DISCARD, Instance, goes_on, refused
 
+from contact.friction import Friction
 from contact_models.runs import scenario
 from contact_models.vehicle.course import lay
 from contact_models.vehicle.kernels.layout import Book
@@ -19,24 +21,27 @@ FAST = ContactOptions(normal="analyn", tangential="fastrip", n_strips=20, n_elem
 COORDINATES = ("x", "y", "z", "roll", "pitch", "yaw")
 
 
-def one_kernel(options: ContactOptions = FAST, start: float = START) -> Simulation:
-    given = scenario.read(SCENARIO)
+def one_kernel(
+    options: ContactOptions = FAST, start: float = START, path: Path = SCENARIO, friction: Friction | None = None
+) -> Simulation:
+    given = scenario.read(path)
     d = given.declared
     rows = lay(d.track, d.length, given.speed, (d.seed,), d.recording.settling)
-    return Simulation(given.vehicle, rows, given.wheel, given.rail, d.friction, options, start=start)
+    return Simulation(given.vehicle, rows, given.wheel, given.rail, friction or d.friction, options, start=start)
 
 
 @pytest.fixture
 def vehicle(native_vehicles, unzipped, freed):
     """Return a function that instantiates the FMU `Vehicle` with the options of a contact."""
 
-    def vehicle(options: ContactOptions = FAST, start: float = START) -> Instance:
+    def vehicle(options: ContactOptions = FAST, start: float = START, **parameters: float) -> Instance:
         fmu = freed(Instance(unzipped(native_vehicles / "Vehicle.fmu")))
         for name in ("method.normal", "method.tangential"):
             items = {item.name: int(item.value) for item in fmu.variables[name].declaredType.items}
             fmu.update({name: items[getattr(options, name.split(".")[1])]})
         fmu.update({f"resolution.{name}": getattr(options, name) for name in ("n_strips", "n_elements", "pace")})
         fmu.update({"initial.distance": start, "resolution.step": STEP, "reference_speed": options.reference_speed})
+        fmu.update(parameters)
         return fmu.initialize()
 
     return vehicle
@@ -75,6 +80,19 @@ def test_the_fmu_gives_the_run_of_the_one_kernel(vehicle, options, paced):
     mirror = np.tile([-1.0, 1.0], 4)  # Y is positive outwards
     assert of_wheels(fmu, "Y")[:, 0] == pytest.approx(mirror * wheels["lateral"], abs=1e-6)
     assert of_wheels(fmu, "Q")[:, 0] == pytest.approx(wheels["vertical"], abs=1e-6)
+
+
+def test_the_factors_of_the_track_multiply_both_coefficients_of_a_law(vehicle, native_vehicles):
+    """Friction is .7 of the law's on the right and .5 on the left, at every sliding velocity."""
+    options, start = replace(FAST, pace=1), 222.0
+    law = Friction(0.3, law="linear", kinetic=0.1, half_speed=0.05)
+    named = {"friction.law": 2.0, "friction.kinetic": law.kinetic, "friction.half_speed": law.half_speed}
+    whole = one_kernel(options, start, native_vehicles.parent / "vehicle.toml", law)
+    fmu = vehicle(options, start, **named)
+    whole.advance(STEP, 20)
+    fmu.step(h=20 * STEP)
+    wanted = np.stack((whole.wheels["longitudinal"], whole.wheels["lateral"]), axis=1)
+    assert np.abs(of_wheels(fmu, "force.x", "force.y") - wanted).max() <= 1e-6
 
 
 def test_the_fmu_brakes_to_rest_stands_and_rolls_back(vehicle):

@@ -244,17 +244,17 @@ def _follow(v, starts, parts, contacts, w, arrays, h, given):
     """
     last, wheel, values = contacts.last, parts.scratch.wheels[w], contacts.values[w % 2]
     patches = contacts.patches[w * MAX_PATCHES : (w + 1) * MAX_PATCHES]
-    asked, friction, paced = parts.scratch.given[w], parts.scratch.seats[w].friction, last.limits[0] > 1.0 and h > 0.0
+    asked, here, paced = parts.scratch.given[w], parts.scratch.seats[w], last.limits[0] > 1.0 and h > 0.0
     near, n_before, counted = False, _n_patches(wheel), h
     if paced:
-        near = expect(last, w, asked, friction, arrays, patches, contacts.sticks[w], n_before)
+        near = expect(last, w, asked, here.friction, arrays, patches, contacts.sticks[w], n_before)
         if near and take_expected(last, w, h, wheel):
             return int(wheel.status) if 0.0 <= wheel.status <= _WORST_STATUS else 0
         counted = count_around(last, w, h)
     numbers = carray(numbers_of(parts.scratch.given[w : w + 1]), (_N_GIVEN,))
     for i in range(_N_GIVEN):
         values[_ITS.pose_y + i] = numbers[i]
-    values[_ITS.friction_coefficient] = friction
+    values[_ITS.friction_coefficient], values[_ITS.friction_kinetic] = here.friction, here.kinetic
     code = _solve(contacts, w, given)
     if code > _WORST_STATUS:
         return code
