@@ -77,10 +77,11 @@ def get_requires_for_build_wheel(config_settings: Mapping[str, Any] | None = Non
 
 
 def _builders() -> list[str]:
-    """Return numba, zig and what else builds the libraries, as pinned in pyproject.toml."""
-    extras = tomllib.loads(Path("pyproject.toml").read_text(encoding="utf-8"))["project"]["optional-dependencies"]
+    """Return what the package needs, which the builder imports, and numba, zig and what else builds its libraries."""
+    project = tomllib.loads(Path("pyproject.toml").read_text(encoding="utf-8"))["project"]
+    extras = project["optional-dependencies"]
     more = (name for name in (*extras["native"], *extras["fmu"]) if name.startswith(("ziglang", "fmpy")))
-    return [*extras["build"], *more, "numpy"]
+    return [*project["dependencies"], *extras["build"], *more]
 
 
 def libraries(root: Path) -> Path:
