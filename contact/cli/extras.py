@@ -10,7 +10,7 @@ EXTRAS = {
     "xarray": (("xarray", "scipy"), "result files: run, wear"),
     "profiles": (("scipy",), "smoothing of measured profiles"),
     "scale": (("dask", "distributed"), "wear on several processes"),
-    "fmu": (("fmpy",), "fmu, demo without --python"),
+    "fmu": (("fmpy",), "fmu --validation, demo without --python"),
     "native": (("ziglang", "fmpy"), "fmu for hosts without Python"),
 }
 

@@ -9,10 +9,11 @@ from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 from typing import NamedTuple
 
+from contact.cli.extras import absent_modules
 from contact.errors import ContactError
 from contact.geometry.profile import Kind, Profile
 from contact_models.runs import scenario
-from . import ssp, starts
+from . import ssp, starts, validation
 from .catalogue import Model, models, surfaces, vehicles
 from .documentation import markdown
 from .native import packaging as native
@@ -76,6 +77,8 @@ def _asked(options: Options) -> _Asked:
 def build(options: Options, given: Mapping[Kind, Profile]) -> None:
     """Build what is asked for with the given profiles, or print its variables."""
     asked = _asked(options)
+    if options.validation is not None and absent_modules("fmu"):
+        raise ImportError("a validation set is made by fmpy: pip install 'wheelrail-contact[fmu]'")
     if not options.describe:
         # first, because Python uses the one of this system; else a clone would build a library for itself too
         if "native" in asked.packagings:
@@ -122,10 +125,6 @@ def _validate(options: Options, paths: Sequence[Path], model: Model) -> None:
     """Write the validation sets of an FMU, if asked for."""
     if options.validation is None:
         return
-    try:
-        from . import validation
-    except ModuleNotFoundError as error:
-        raise ImportError(f"{error}: a validation set is made by fmpy: pip install 'wheelrail-contact[fmu]'") from None
     for path in paths:
         is_python = path.parent.name == "python"
         exchange = not is_python and model.component().exchange
