@@ -92,12 +92,10 @@ def _wrong_import(module: str, names: list[tuple[str, str]], known: dict[str, An
 
 def _member(module: ModuleType, name: str) -> Any:
     """Return what a module has under a name, which may be a module in it; None if there is none."""
-    if not hasattr(module, name):
-        try:
-            return importlib.import_module(f"{module.__name__}.{name}")
-        except ImportError as error:
-            return error if "wheelrail-contact[" in str(error) else None
-    return getattr(module, name)
+    try:
+        return getattr(module, name) if hasattr(module, name) else importlib.import_module(f"{module.__name__}.{name}")
+    except ImportError as error:  # an extra is missing, and the message says which
+        return error if "wheelrail-contact[" in str(error) else None
 
 
 def commands() -> dict[str, Any]:
