@@ -34,7 +34,7 @@ def one_kernel(
 def vehicle(native_vehicles, unzipped, freed):
     """Return a function that instantiates the FMU `Vehicle` with the options of a contact."""
 
-    def vehicle(options: ContactOptions = FAST, start: float = START, **parameters: float) -> Instance:
+    def vehicle(options: ContactOptions = FAST, start: float = START, **parameters: object) -> Instance:
         fmu = freed(Instance(unzipped(native_vehicles / "Vehicle.fmu")))
         for name in ("method.normal", "method.tangential"):
             items = {item.name: int(item.value) for item in fmu.variables[name].declaredType.items}
@@ -86,7 +86,7 @@ def test_the_factors_of_the_track_multiply_both_coefficients_of_a_law(vehicle, n
     """Friction is .7 of the law's on the right and .5 on the left, at every sliding velocity."""
     options, start = replace(FAST, pace=1), 222.0
     law = Friction(0.3, law="linear", kinetic=0.1, half_speed=0.05)
-    named = {"friction.law": 2.0, "friction.kinetic": law.kinetic, "friction.half_speed": law.half_speed}
+    named = {"friction.law": 2, "friction.kinetic": law.kinetic, "friction.half_speed": law.half_speed}
     whole = one_kernel(options, start, native_vehicles.parent / "vehicle.toml", law)
     fmu = vehicle(options, start, **named)
     whole.advance(STEP, 20)
