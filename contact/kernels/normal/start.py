@@ -45,7 +45,7 @@ def recall(sep, n, low, high, workspace):
     start, end = memory[MEM_START], memory[MEM_START + 1]
     shift = 0.5 * (low + high - start - end) if n_panels > 0 else 0.0
     shift = shift if abs(shift) < _FURTHEST * (high - low) else 0.0
-    wider = (high - low) / (end - start) if n_panels == 1 and end > start else 1.0
+    wider = (high - low) / max(end - start, 1e-300) if n_panels == 1 and end > start else 1.0
     wider = wider if 1.0 / _WIDEST < wider < _WIDEST else 1.0
     middle, longer = 0.5 * (start + end), math.log(wider)  # half lengths grow as the width does
     for p in range(n_panels):
