@@ -73,7 +73,7 @@ class Added(NamedTuple):
     file : str
         Name of the file of C that has the function; empty where nobody needs it in C or in the libraries, but in kernels.bc.
     python : bool
-        Whether Python calls it.
+        Whether FMUs for hosts with Python have it.
     """
 
     name: str

@@ -61,7 +61,9 @@ def get_library() -> Path:
     """
     path = _whole() or cached() / NAME
     if not path.is_file():
-        raise ImportError(f"{path} was not linked: the C interface of a checkout needs cc, gcc or clang")
+        raise ImportError(
+            f"{path} was not linked: the C interface of a checkout needs cc, gcc or clang, and C that compiles"
+        )
     return path
 
 

@@ -1,4 +1,4 @@
-"""Description of one FMU for the builder, the C wrapper and the Python slave."""
+"""Description of one FMU for the builder and the C wrapper."""
 
 from __future__ import annotations
 
