@@ -13,8 +13,9 @@ from contact.geometry.roughness import Points, backward, kinks, noise, spike_hei
 
 Kind = Literal["wheel", "rail"]
 
-UNITS = {"m": 1.0, "mm": 1e-3, "inch": 0.0254}  # of profile files [m]
+UNITS = {"m": 1.0, "mm": 1e-3, "cm": 1e-2, "inch": 0.0254}  # of profile files [m]
 NARROWEST, WIDEST = 0.03, 0.2  # usual range of the width of a wheel or a rail's head [m]
+USUAL_WIDTH = 0.1  # between those of a rail's head and a wheel [m]
 LEAST_WIDTH = 1e-3  # of a twin disc [m]
 FLANGE_BACK = 0.070  # distance of the back of the flange from the tape circle [m] (EN 13715)
 TIP_FROM_TAPE = 0.055  # distance of the flange's tip from the tape circle [m] (EN 13715)
@@ -304,8 +305,10 @@ def narrow(points: Points, unit: float) -> list[Finding]:
 
 
 def _fitting(width: float, unit: float) -> list[str]:
-    """Return the units in which a profile would have a usual width; `unit` is that in which it has `width` [m]."""
-    return [name for name, size in UNITS.items() if unit and NARROWEST <= width * size / unit <= WIDEST]
+    """Return the units in which a profile would have a usual width, the likeliest first; `unit` is that of `width` [m]."""
+    widths = {name: width * size / unit for name, size in UNITS.items()} if unit and width else {}
+    likely = sorted(widths, key=lambda name: abs(np.log(widths[name] / USUAL_WIDTH)))
+    return [name for name in likely if NARROWEST <= widths[name] <= WIDEST]
 
 
 def scans(points: Points) -> list[Points]:

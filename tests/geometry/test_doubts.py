@@ -7,7 +7,7 @@ import pytest
 
 import contact
 from contact import ContactError
-from contact.errors import PlausibilityWarning
+from contact.errors import PlausibilityWarning, ProfileWarning
 from contact.geometry import profile
 from contact.geometry.surfaces import SurfacePair
 from contact.geometry.wheelset import Pair, Pose, Velocity, contacts
@@ -200,10 +200,13 @@ def test_errors_name_the_likely_slip():
         contact.solve(patch, patch.creepage, load=80e3)
 
 
-def test_files_in_inches_are_read(tmp_path):
-    points = "\n".join(f"{y / 0.0254:.9f} {z / 0.0254:.9f}" for y, z in zip(WHEEL.y, WHEEL.z, strict=True))
+@pytest.mark.parametrize(("unit", "size"), [("inch", 0.0254), ("cm", 1e-2)])
+def test_the_unit_of_a_file_is_found_where_another_one_is_given(tmp_path, unit, size):
+    points = "\n".join(f"{y / size:.9f} {z / size:.9f}" for y, z in zip(WHEEL.y, WHEEL.z, strict=True))
     (path := tmp_path / "wheel.txt").write_text(points)
-    read = profile.read(path, kind="wheel", unit="inch", side="right")
+    read = profile.read(path, kind="wheel", unit=unit, side="right")
     assert abs(read.z - WHEEL.z).max() < 1e-9
-    with pytest.raises(ContactError, match=r"m wide, outside the range .*set unit to 'inch'"):
+    with pytest.raises(ContactError, match=rf"m wide, outside the range .*set unit to '{unit}'"):
         profile.read(path, kind="wheel", unit="m", side="right")
+    with pytest.warns(ProfileWarning, match=rf"narrow: .*set unit to '{unit}'"):
+        profile.read(path, kind="wheel", unit="mm", side="right")
