@@ -30,8 +30,8 @@ class Measured:
     Parameters
     ----------
     file : path of a CSV file with the columns distance, alignment, vertical, cross_level, gauge by these headings, or in this
-        order below others: stations [m]; centre line to the right, height downwards [m]; angle by which the left rail lies higher [rad];
-        gauge minus nominal gauge [m]
+        order below others: stations [m]; centre line to the right, height downwards [m]; angle by which the left rail lies
+        higher [rad]; gauge minus nominal gauge [m]
     start : station at which the run begins [m]; default 0
     direction : "rising", or "falling" for a run towards smaller stations. The channels are as one sees them looking towards
         larger stations
