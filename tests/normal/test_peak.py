@@ -22,8 +22,8 @@ def kinked(at, beyond):
     [(-1e-3, 150.0, 0.09), (0.0, 40.0, 0.05), (0.0, 150.0, 0.12), (2e-3, 10.0, 0.035), (3e-3, 40.0, 0.065)],
 )
 def test_a_peak_between_strips_is_found(at, beyond, before):
-    """With 20 strips the largest pressure was lower than with 96 by more than `before`, because no strip lay at the peak. Strips
-    divided once were up to .011 off."""
+    """With 20 strips the largest pressure was lower than with 96 by more than `before`: no strip lay at the peak. Strips that
+    are divided once were up to .011 off."""
     few, many = (contact.solve(kinked(at, beyond), NO_CREEP, load=8e4, n_strips=n) for n in (20, 96))
     assert max(few.strips.p0) < (1.0 - before) * many.max_pressure
     assert few.max_pressure == pytest.approx(many.max_pressure, rel=0.0025)
