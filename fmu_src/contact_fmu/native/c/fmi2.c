@@ -37,7 +37,8 @@ static void write_log(const Log *log, const char *name, Status status, const cha
 const char *fmi2GetTypesPlatform(void) { return fmi2TypesPlatform; }
 const char *fmi2GetVersion(void) { return fmi2Version; }
 
-PASS(SetDebugLogging, (fmi2Component c, fmi2Boolean on, size_t n, const fmi2String names[]), choose_log(c, __func__, on, n, names))
+PASS(SetDebugLogging, (fmi2Component c, fmi2Boolean on, size_t n, const fmi2String names[]),
+     choose_log(c, __func__, on, n, names))
 
 fmi2Component fmi2Instantiate(fmi2String name, fmi2Type type, fmi2String guid, fmi2String resources,
                               const fmi2CallbackFunctions *functions, fmi2Boolean visible, fmi2Boolean logging)

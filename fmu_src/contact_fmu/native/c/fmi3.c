@@ -25,7 +25,8 @@ static void write_log(const Log *log, const char *name, Status status, const cha
 
 const char *fmi3GetVersion(void) { return fmi3Version; }
 
-PASS(SetDebugLogging, (fmi3Instance c, fmi3Boolean on, size_t n, const fmi3String names[]), choose_log(c, __func__, on, n, names))
+PASS(SetDebugLogging, (fmi3Instance c, fmi3Boolean on, size_t n, const fmi3String names[]),
+     choose_log(c, __func__, on, n, names))
 
 /* ---------------------------------------------------------------- from instantiate to free */
 
