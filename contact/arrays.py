@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -61,7 +63,7 @@ def require_numbers(
     return array
 
 
-def broadcast(arrays: dict[str, Array]) -> list[Array]:
+def broadcast(arrays: Mapping[str, NDArray[Any]]) -> list[NDArray[Any]]:
     """Return arrays, given by name, with one shape.
 
     Raises
