@@ -78,6 +78,12 @@ def broadcast(arrays: Mapping[str, NDArray[Any]]) -> list[NDArray[Any]]:
         raise ContactError(f"shapes do not broadcast: {told}") from None
 
 
+def connected(steps: NDArray[np.bool_], first: int) -> slice:
+    """Return the range of points around one that true steps connect; step k leads from point k to the next one."""
+    before, behind = np.flatnonzero(~steps[:first]), np.flatnonzero(~steps[first:])
+    return slice(int(before[-1]) + 1 if before.size else 0, 1 + (first + int(behind[0]) if behind.size else steps.size))
+
+
 def _placed(name: str, where: tuple[int | np.intp, ...]) -> str:
     """Return the name of an element of an array."""
     return f"{name}[{', '.join(map(str, where))}]" if where else name

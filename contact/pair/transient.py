@@ -14,7 +14,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from contact.arrays import Array
+from contact.arrays import Array, connected
 from contact.errors import ContactError, require_number
 from contact.geometry.records import Pose, Velocity
 from contact.geometry.surfaces import SurfacePair, SurfacePatch
@@ -226,13 +226,8 @@ class TransientPair(HalfspacePair):
         y, z = self.pair.rail.curves(np.array([station]))[:, 0]
         known = np.isfinite(y)
         y, z = y[known], z[known]
-        top = int(np.argmin(z))
-        low, high = top, top
-        while low > 0 and y[low - 1] < y[low]:
-            low -= 1
-        while high < y.size - 1 and y[high + 1] > y[high]:
-            high += 1
-        y, z = y[low : high + 1], z[low : high + 1]
+        rising = connected(np.diff(y) > 0.0, int(np.argmin(z)))
+        y, z = y[rising], z[rising]
         arc = np.concatenate(([0.0], np.cumsum(np.hypot(np.diff(y), np.diff(z)))))
         return y, arc - float(np.interp(0.0, y, arc))
 
