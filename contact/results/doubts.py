@@ -75,17 +75,17 @@ def doubt_answer(
     conformal : bool
         The strips lie on a bent surface.
     many : str
-        Says that the answers are those of an array, which does not tell of a single one.
+        Says that a `gap_error` is that of an array, which does not tell of a single one.
     **found
         Some of N, Q [N], `gap_error`, `bend`, `beyond`, `fit_error`.
     """
     for name, value in found.items():
         usual = _gap(gap_limit) if name == "gap_error" else ANSWERS.get(name) or _OTHERS[name]
-        reason = f"{name}{many}{', conformal' if conformal and name == 'bend' else ''}"
+        reason = name + {"gap_error": many, "bend": ", conformal" * conformal}.get(name, "")
         if value > usual.largest and reason not in told:
-            told.add(reason)
             better = "; normal = tangential = 'halfspace' does without this" if name in _BETTER else ""
             warn(
                 f"{name} = {value:.3g}: {usual.hint}{better}",
                 PlausibilityWarning if usual is _CARRIED else ModelWarning,
             )
+            told.add(reason)  # not before: a warning may be an error
