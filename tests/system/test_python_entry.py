@@ -156,7 +156,7 @@ def conversation(fmu: Instance, other: Instance, name: str) -> list:
         call(f"Set{of}", ctypes.byref(output), one)
     call("SetRealInputDerivatives", ctypes.byref(known), one, ctypes.byref(order))
     call("GetRealOutputDerivatives", ctypes.byref(output), one, ctypes.byref(order))
-    said += [library["fmi2CancelStep"](c), step(2.0)]
+    said += [library["fmi2CancelStep"](c), step(2.0), step(3e-3, 2.0)]
     ask_for_status()
     fmu.update({wrong: bad})
     assert step(3e-3) == DISCARD
