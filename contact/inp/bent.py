@@ -58,7 +58,8 @@ def elements(pair: SurfacePair, patch: SurfacePatch, pose: Pose, bodies: Outline
     h = h * cosine[:, None]
     approach = -float(h.min())
     angle = frame.turn[0] + tilt
-    found = Elements(CurvedGap(gap.x, s, h + approach, y, np.tan(tilt)), approach, *places, axes, angle)
+    curved = CurvedGap(gap.x, s, h + approach, y, np.tan(tilt))
+    found = Elements(curved, approach, places[0], places[1], axes, angle)
     return found.mirrored if left else found
 
 
