@@ -8,7 +8,6 @@ import pytest
 import contact
 from contact.geometry import profile, wheelset
 from contact.kernels.normal.ends import end_moves, go_far
-from contact.kernels.normal.panels import half_lengths
 from contact.kernels.normal.partition import have_gap
 from contact.kernels.normal.residuals import level_light
 from contact.kernels.rows import N_VECTOR_ROWS, Vector
@@ -76,20 +75,6 @@ def test_many_strips_settle_on_a_lobe_whose_middles_could_zigzag_at_its_ends(y, 
     assert found[1].status is contact.Status.OK
     assert found[1].max_pressure == pytest.approx(found[0].max_pressure, rel=5e-3)
     assert found[1].area == pytest.approx(found[0].area, rel=1e-2)
-
-
-@pytest.mark.parametrize(("loaded", "least"), [(1.0, 0.3), (0.0, 0.3**4)])
-def test_a_row_of_many_strips_does_not_collapse_between_two_lobes(loaded, least):
-    """Lengths of 160 strips fell by .3 from one to the next, to a thousandth, whose pressure was then 18 190 MPa in place of
-    4120. Towards the end of a lobe they still may."""
-    n, middle = 160, 80
-    vectors = np.zeros((N_VECTOR_ROWS, n))
-    vectors[Vector.ACTIVE], vectors[Vector.P], vectors[Vector.CURVATURE] = 1.0, 1.0, 1.0
-    vectors[Vector.P, middle + 8 :] = loaded
-    away = np.abs(np.arange(n) - middle)
-    vectors[Vector.LN_A] = np.where(away < 4, (4 - away) * math.log(0.3), 0.0)
-    half_lengths(vectors, n, 1, 10.0)
-    assert vectors[Vector.A, middle] == pytest.approx(least, rel=1e-9)
 
 
 def test_strips_that_bear_next_to_nothing_do_not_tell_the_pressure_of_what_is_not_at_rest():

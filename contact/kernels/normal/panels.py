@@ -6,7 +6,7 @@ from contact.core import entry, kernel
 from contact.kernels import cubic
 from contact.kernels.arrays import Matrix
 from contact.kernels.cubic import locate
-from contact.kernels.normal.descent import COARSE, END_LENGTH
+from contact.kernels.normal.descent import END_LENGTH
 from contact.kernels.normal.strip_system import displacement_outside
 from contact.kernels.records import MAX_PATCHES
 from contact.kernels.rows import Sample, Strip, Vector
@@ -117,11 +117,10 @@ def place_middles(vectors, n, n_panels, delta):
 def half_lengths(vectors: Matrix, n: int, n_panels: int, delta: float) -> None:
     """Fill half lengths a and their logarithms, LN_LENGTH, from ln a, at the approach `delta` above first touch [m].
 
-    Strips at the ends follow the square root of the edge. No strip may collapse beside its neighbours, of 20 in a panel. None
-    may be longer than the virtual penetration, A a² = delta - g: the pressure displaces its ends outwards. Without this bound
-    the length of a strip with hardly any pressure, near the end of a skewed patch, can grow until it carries the load.
+    Strips at the ends follow the square root of the edge. No strip may collapse beside its neighbours. None may be longer
+    than the virtual penetration, A a² = delta - g: the pressure displaces its ends outwards. Without this bound the length
+    of a strip with hardly any pressure, near the end of a skewed patch, can grow until it carries the load.
     """
-    far = max(1, n // COARSE)  # many strips fall no faster than few, which would let the length of one collapse
     for p in range(n_panels):
         first = p * n
         for i in range(first + 1, first + n - 1):
@@ -137,10 +136,7 @@ def half_lengths(vectors: Matrix, n: int, n_panels: int, delta: float) -> None:
         vectors[Vector.LN_LENGTH, first + n - 1] = _LN_END + vectors[Vector.LN_A, first + n - 2]
         for i in range(first + 1, first + n - 1):
             if vectors[Vector.ACTIVE, i] != 0.0:
-                reach = min(far, i - first, first + n - 1 - i)
-                if min(vectors[Vector.P, i - reach], vectors[Vector.P, i + reach]) <= 0.0:
-                    reach = 1  # towards the end of a lobe lengths fall to 0
-                floor = 0.3 * max(vectors[Vector.A, i - reach], vectors[Vector.A, i + reach])
+                floor = 0.3 * max(vectors[Vector.A, i - 1], vectors[Vector.A, i + 1])
                 vectors[Vector.FLOOR, i] = floor
                 if vectors[Vector.A, i] <= floor:
                     vectors[Vector.A, i], vectors[Vector.LN_A, i] = floor, math.log(floor)
