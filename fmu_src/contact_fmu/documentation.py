@@ -23,13 +23,7 @@ def markdown(table: Table) -> str:
         *(_line(row) for row in table.shown),
     ]
     if table.fields:
-        lines += [
-            "",
-            _about_fields(table),
-            "",
-            *lines[4:6],
-            *(_line(row) for row in table.fields),
-        ]
+        lines += ["", _about_fields(table), "", *lines[4:6], *(_line(row) for row in table.fields)]
     return "\n".join(lines) + "\n"
 
 
