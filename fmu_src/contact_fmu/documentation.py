@@ -27,6 +27,12 @@ def markdown(table: Table) -> str:
     return "\n".join(lines) + "\n"
 
 
+def files(table: Table, packaging: str = "") -> list[tuple[str, bytes]]:
+    """Return the documentation in an FMU, with a section on its packaging."""
+    text = markdown(table) + packaging
+    return [(f"documentation/{table.name}.md", text.encode()), ("documentation/index.html", page(table).encode())]
+
+
 def page(table: Table) -> str:
     """Return the page that tools show for an FMU."""
     fields = f"<p>{escape(_about_fields(table))}</p>{_rows(table.fields)}" if table.fields else ""
