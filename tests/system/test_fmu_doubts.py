@@ -1,11 +1,10 @@
-"""FMUs tell what Python warns of: values that no wheel on a rail has, once for each instance and rule, in both packagings."""
+"""FMUs tell what Python warns of: values that no wheel on a rail has, once for each instance and rule."""
 
 import pytest
 from fmu_instance import WARNING, Instance
 from fmu_instance_fmi3 import Instance3
 
-from contact.inputs.plausibility import about_bend, about_beyond
-from contact.results import BEND, BEYOND
+from contact.results import ANSWERS, BEND
 
 #: An elliptic contact in the middle of the table of creep forces.
 LONG = {"geometry.A0": 1.1, "geometry.B0": 0.28, "load.normal_force": 8e4, "creepage.longitudinal": 1e-3}
@@ -15,6 +14,7 @@ PAIR = [
     ({"friction.coefficient": 35.0}, "friction.coefficient = 35: "),
     ({"load.normal_force": 80.0}, "load.normal_force = 80: "),
     ({"pose.roll": 0.06}, "pose.roll = 0.06: "),
+    ({"velocity.y": 5.0}, "velocity.y = 5: "),
 ]
 
 
@@ -56,6 +56,14 @@ def test_what_is_not_used_or_zero_is_not_doubted(opened):
     assert warned(fmu) == []
 
 
+def test_a_load_below_zero_is_none_and_not_doubted(opened):
+    fmu = opened("WheelRailPair")
+    fmu.update({"load.normal_force": -1e-9})
+    fmu.initialize().step()
+    assert warned(fmu) == []
+    assert fmu["force.z"] == 0.0
+
+
 def test_fmi_3_says_the_same(native_fmi3_folder):
     instance = Instance3(native_fmi3_folder)
     instance.update({"friction.coefficient": 35.0})
@@ -68,8 +76,8 @@ def test_fmi_3_says_the_same(native_fmi3_folder):
 @pytest.mark.parametrize(
     ("name", "output", "before", "values", "least", "about"),
     [
-        ("WheelRailPair", "bend", {}, {"pose.y": 6.75e-3}, BEND, about_bend(BEND)),
-        ("EllipticContact", "beyond", LONG, {"geometry.A0": 6.9, "geometry.B0": 0.0588}, 0.999, about_beyond(BEYOND)),
+        ("WheelRailPair", "bend", {}, {"pose.y": 6.75e-3}, BEND, ANSWERS["bend"].hint),
+        ("EllipticContact", "beyond", LONG, {"geometry.A0": 6.9, "geometry.B0": 0.0588}, 0.999, ANSWERS["beyond"].hint),
     ],
 )
 def test_what_a_method_leaves_out_of_a_patch_is_told_once(opened, name, output, before, values, least, about):
