@@ -16,7 +16,7 @@ from contact.errors import ContactError, require_flag, require_integer
 from contact.friction import Friction
 from contact.inputs.creepage import Creepage
 from contact.inputs.material import STEEL, Material
-from contact.inputs.options import CREEPAGE, FRICTION, N_ELEMENTS, N_STRIPS
+from contact.inputs.options import APPROACH, CREEPAGE, FRICTION, LOAD, N_ELEMENTS, N_STRIPS
 from contact.inputs.plausibility import (
     doubt_alike,
     doubt_beyond,
@@ -119,7 +119,9 @@ def forces(
     surface, coefficients = (friction, friction.static) if isinstance(friction, Friction) else (None, friction)
     index = np.arange(len(separations)) if not isinstance(separation, Separation) else np.array(0)
     columns: list[NDArray[Any]] = [
-        require_numbers("load", load, 0.0) if load is not None else require_numbers("approach", approach),
+        require_numbers("load", load, *LOAD.bounds)
+        if load is not None
+        else require_numbers("approach", approach, *APPROACH.bounds),
         *(
             require_numbers(f"creepage.{name}", value, *CREEPAGE.bounds)
             for name, value in zip(_PARTS, creepages, strict=True)
