@@ -138,7 +138,10 @@ REFUSED: list[tuple[Callable[[], Any], str]] = [
     (lambda: solve(approach=1e300), r"approach = 1e\+300 is outside the allowed range \[-1e\+15, 1e\+15\]"),
     (lambda: solve(load=1e200, **HALF), r"load = 1e\+200 is outside"),
     (lambda: contact.forces(ELLIPSE, CREEPAGE, load=1.0, friction=[[0.1], [-1.0]]), r"friction\[1, 0\] = -1"),
-    (lambda: contact.forces(ELLIPSE, CREEPAGE, load=[1.0, 2.0], friction=[0.1, 0.2, 0.3]), r"do not broadcast: \(2,\)"),
+    (
+        lambda: contact.forces(ELLIPSE, CREEPAGE, load=[1.0, 2.0], friction=[0.1, 0.2, 0.3]),
+        r"do not broadcast: load \(2,\)",
+    ),
     (lambda: contact.forces(ELLIPSE, CREEPAGE), "exactly one"),
     (lambda: contact.Solver().forces(None, CREEPAGE, load=1.0), "separation = None is not a contact.Separation"),
     (
@@ -304,8 +307,6 @@ REFUSED: list[tuple[Callable[[], Any], str]] = [
     (lambda: Pair(RAIL, RAIL), "wheel = .* is not a profile of a wheel"),
     (lambda: Pair(WHEEL, WHEEL), "rail = .* is not a profile of a rail"),
     (lambda: Pair(WHEEL, RAIL, side="up"), "side = 'up'"),
-    (lambda: Pair(WHEEL, RAIL, most_patches=2.7), "most_patches = 2.7 is not an integer"),
-    (lambda: Pair(WHEEL, RAIL, most_patches=5), "most_patches = 5 is not an integer in the allowed range"),
     (lambda: Pair(WHEEL, RAIL, samples=3), "samples = 3"),
     (lambda: Pair(WHEEL, RAIL, samples=[0, 1, 1, 2, 3]), "increasing"),
     (lambda: Pair(WHEEL, RAIL, samples="many"), "samples = 'many'"),
