@@ -111,8 +111,8 @@ def forces(
     surface, coefficients = (friction, friction.static) if isinstance(friction, Friction) else (None, friction)
     index = np.arange(len(separations)) if not isinstance(separation, Separation) else np.array(0)
     load_name = "approach" if load is None else "load"
-    limits, given = (APPROACH, approach) if load is None else (LOAD, load)
-    columns: dict[str, NDArray[Any]] = {load_name: require_numbers(load_name, given, *limits.bounds)}
+    limits, wanted = (APPROACH, approach) if load is None else (LOAD, load)
+    columns: dict[str, NDArray[Any]] = {load_name: require_numbers(load_name, wanted, *limits.bounds)}
     for name, value in zip(_PARTS, creepages, strict=True):
         columns[f"creepage.{name}"] = require_numbers(f"creepage.{name}", value, *CREEPAGE.bounds)
     columns["friction"] = require_numbers("friction", coefficients, *FRICTION.bounds)
