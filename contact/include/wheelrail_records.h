@@ -39,6 +39,8 @@
 #define WR_FIELD_SY 6
 #define WR_FIELD_STICK 7
 #define WR_DEFAULT_ITERATIONS 60
+#define WR_SEPARATION_SAMPLES 3, 100000, 101
+#define WR_PAIR_SAMPLES 5, 2001, 81
 #define WR_TAPE_FROM_FLANGE_BACK 0.07
 #define WR_STEEL_SHEAR_MODULUS 82000000000.0
 #define WR_STEEL_POISSON_RATIO 0.28
@@ -388,6 +390,22 @@ typedef struct {
 } wr_damage_parameters;
 #if defined(__STDC_VERSION__) && __STDC_VERSION__ >= 201112L
 _Static_assert(sizeof(wr_damage_parameters) == 264, "wr_damage_parameters");
+#endif
+
+typedef struct {
+    int64_t size; /* sizeof(wr_pair_input), set by wr_pair_input_default */
+    int64_t height; /* Height: motion.z is given, or amount is a penetration [m], or the force that the wheel carries [N] */
+    double amount; /* of the normal forces, or with WR_HEIGHT_VERTICAL of these and friction together */
+    wr_motion motion; /* pose and velocity of the wheelset, irregularity of the rail; vx < 0 rolls backwards, on profiles only */
+    wr_case surface; /* methods, material, friction: as wr_contact_case fills it; loads and creepages are ignored */
+    wr_elastic_rail rail; /* springs; 0: rigid */
+    wr_wheel_offset offset; /* displacement of the wheel against its wheelset */
+    double distance; /* rolled in this state [m], for the bins */
+    double station; /* surfaces: position of the axle along the slices of the rail [m] */
+    double rotation; /* surfaces: angle by which the wheel has turned [rad]; it decreases when rolling forward */
+} wr_pair_input;
+#if defined(__STDC_VERSION__) && __STDC_VERSION__ >= 201112L
+_Static_assert(sizeof(wr_pair_input) == 600, "wr_pair_input");
 #endif
 
 typedef struct {

@@ -69,6 +69,8 @@ MOST_PATCHES = Whole(MAX_PATCHES, 1, MAX_PATCHES)
 REFERENCE_SPEED = Real(SLOWEST, 1e-6, 10.0)
 #: Samples of each separation of a pair; 41 miss the peaks of crossing noses.
 SAMPLES = Whole(81, 5, 2001)
+#: Most samples of a separation that a solver of the C interface is given.
+SEPARATION_SAMPLES = Whole(101, 3, 100_000)
 #: Distance before and behind the axle in which surfaces are searched [m].
 REACH = Real(0.06, 0.01, 0.3)
 #: Load [N] and approach [m]: sums and squares of much larger ones overflow.
