@@ -232,8 +232,8 @@ def _iterate(problem, state, most):
 
 
 @kernel
-def _solve(sep, case, load, workspace, result):
-    """Solve the normal problem in the given orientation, for a `load` > 0 [N] instead of what the case says."""
+def _solve(sep, case, load, brief, workspace, result):
+    """Solve the normal problem in the given orientation. Load and `brief` are those of `strips_under`."""
     space, strips, memory = workspace.space, workspace.strips, workspace.space.memory
     n_strips = analyn(sep, case, workspace.rule.across, space.grid, strips, result)
     if n_strips == 0:
@@ -274,7 +274,7 @@ def _solve(sep, case, load, workspace, result):
     lone = skew > 0.0 and _level_lone(n, n_panels, space.vectors)
     count = _report(problem, state.approach, n_panels)
     # parts of strips would make up for the pressure that was taken away
-    result.pmax = 0.0 if lone or load > 0.0 else largest_pressure(count, problem)
+    result.pmax = 0.0 if lone or brief else largest_pressure(count, problem)
     if not rests and result.status != Status.OUT_OF_RANGE:
         result.status = Status.NOT_CONVERGED
     elif result.status == Status.OUT_OF_RANGE:
@@ -286,11 +286,11 @@ def _solve(sep, case, load, workspace, result):
 
 
 @kernel
-def strips_under(load, sep, case, workspace, result):
-    """As `strip_halfspace`, for a `load` > 0 [N] with ANALYN's start at the approach of the case; no peak is read then."""
+def strips_under(load, brief, sep, case, workspace, result):
+    """As `strip_halfspace`, for a `load` > 0 [N] with ANALYN's start at the approach of the case. If `brief`, no peak is read."""
     image, space = is_image(sep.g), workspace.space
     face(image, space.memory)
-    n = _solve(turn_samples(sep, image, space.turned), case, load, workspace, result)
+    n = _solve(turn_samples(sep, image, space.turned), case, load, brief, workspace, result)
     if image:
         turn_back(n, workspace.strips, result.edges)
     return n
@@ -304,4 +304,4 @@ def strip_halfspace(sep, case, workspace, result):
     ends came to rest. With the status NOT_CONVERGED the result is the best iterate if its changes were small, and
     ANALYN's solution otherwise. Mirror images have mirrored answers (`orientation`).
     """
-    return strips_under(0.0, sep, case, workspace, result)
+    return strips_under(0.0, False, sep, case, workspace, result)
