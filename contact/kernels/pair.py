@@ -28,7 +28,7 @@ from contact.kernels.resultants import (
 )
 from contact.kernels.root import advance
 from contact.kernels.root import begin as begin_root
-from contact.kernels.rows import Sep
+from contact.kernels.rows import Sep, Strip
 
 #: Search of the height for a load or a vertical force: most trials, shortest bracket [m], target and accepted residual over it.
 _MOST, _SHORTEST, _TOLERANCE, _ACCEPTABLE = 20, 1e-14, 1e-9, 1e-3
@@ -41,8 +41,9 @@ _ROUGH = 1e-3
 _ITERATED, _NOISE, _IDLE, _RESTLESS = 1e-5, 1e-4, 2, 5e-4
 #: Iterations up to which a solution is a start for the next trial. What takes more may have two solutions at one height.
 _QUICK = 8
-#: So many solutions for a load may lay a single patch anew.
-_MOST_LAID = 5
+#: Most solutions for a load, each of which lays the patch anew; share of the force by which the height may move after the last
+#: one. Where lobes share a plane, that moves them against each other; one lobe by itself is laid alike.
+_MOST_LAID, _ONE_LOBE = 5, 3e-3
 #: Target and accepted residual on surfaces that change along the way, the second with friction. On the edge of a fresh flat the
 #: force is not smooth in z.
 _ROUGHER, _ACCEPTABLE_ROUGH = 1e-7, 1e-2
@@ -246,43 +247,44 @@ def _start_of(n, quick, arrays):
 def _press_for_load(mode, force, touch, nodes, root, arrays):
     """Find the height that carries `force` by solving the normal problem of a single patch for its load.
 
-    Each solution lays the patch at the height that the last one has found, and is the answer where that hardly moves any more.
-    With Height.VERTICAL the tangential problem is solved too, and tells which share of a load friction leaves. Return the
-    number of strips, or 0 where there are more patches than one or no rest is found; then `root` is at the last height.
+    Each solution lays the patch at the height that the last one has found; the first one is rough. With Height.VERTICAL the
+    tangential problem is solved too, which tells the share of a load that friction leaves. Return the number of strips; 0 where
+    there are more patches than one, -1 where strips that find no rest quickly have brought `root` near the height.
     """
     search, motion, result, case = arrays.search, arrays.search.motion[0], arrays.result[0], arrays.patch_case[0]
-    left, before, quick = 0.0, 0.0, False
+    left, quick = 0.0, False
     for k in range(_MOST_LAID):
         if _start_of(describe(search, touch + root.x, nodes), quick, arrays) != 1:
             return 0
-        patch = search.patches[0]
+        patch, rough = search.patches[0], k == 0
         set_case(patch, motion, arrays.case[0], case)
         cosine = math.cos(patch.angle) * math.cos(patch.pitch)
-        left = cosine if k == 0 or mode == Height.LOAD else left
+        left = cosine if rough or mode == Height.LOAD else left
         samples, of_patch = workspace_of(0, arrays)
         clear(result)
-        n_strips = strips_under(force / left, k == 0, samples, case, of_patch, result)
+        n_strips = strips_under(force / left, rough, samples, case, of_patch, result)
         missed = abs(result.N * left - force) > _ROUGH * force
         if n_strips == 0 or missed or result.status == Status.NOT_CONVERGED or not result.stiffness > 0.0:
             return 0
         growth, rise = result.stiffness / result.N * cosine, (result.approach - patch.approach) / cosine
         motion.z, case.amount, patch.approach = touch + root.x + rise, result.approach, result.approach
-        reached = force
+        quick, reached = result.iterations <= _QUICK, force
         if mode == Height.VERTICAL:
-            _solve(1, n_strips, k == 0, False, arrays)
+            _solve(1, n_strips, rough, False, arrays)
             reached = -arrays.total[0].Fz
             if not reached > 0.0:
                 return 0
             left *= reached / force
         motion.missed = abs(reached - force) / force
-        if k > 0 and abs(rise) * growth <= _NOISE and motion.missed <= _ITERATED:
+        near = _ONE_LOBE if arrays.workspace.strips[Strip.PATCH, n_strips - 1] == 0.0 else _NOISE
+        if quick and not rough and abs(rise) * growth <= near and motion.missed <= _ITERATED:
             return n_strips
-        step = rise + 1.5 * ((force / reached) ** (2.0 / 3.0) - 1.0) / growth
-        depth = root.x + (step * min(max(before / (before - step), 0.5), 2.0) if k > 0 and before != step else step)
+        depth = root.x + rise + 1.5 * ((force / reached) ** (2.0 / 3.0) - 1.0) / growth
         if not root.first < depth < root.last:
             return 0
         begin_root(root, depth, root.slope, root.first, root.last)
-        before, quick = step, result.iterations <= _QUICK
+        if not quick and not rough:
+            return -1
     return 0
 
 
@@ -323,7 +325,7 @@ def _solve_under(mode, force, arrays):
     acceptable = _ACCEPTABLE_ROUGH if changing and mode == Height.VERTICAL else _ACCEPTABLE
     best, z_best, mark, missing, idle = math.inf, touch, math.inf, math.inf, 0
     starts, quick = iterated and not changing, False
-    enters = _enters(arrays)
+    enters, slow = _enters(arrays), False
     if starts and not 0.0 < arrays.case[0].pressure_limit < math.inf:
         pressed = _press_for_load(mode, force, touch, nodes, root, arrays)
         if pressed > 0:
@@ -332,6 +334,8 @@ def _solve_under(mode, force, arrays):
             elif enters:
                 enter(search.patches[0], pressed, arrays.damage[0], arrays)
             return 1
+        slow = pressed < 0
+        missing = 0.0 if slow else missing
     while True:
         z = touch + root.x
         if changing:  # grids that are laid for another height would change the force
@@ -356,7 +360,8 @@ def _solve_under(mode, force, arrays):
         if missing < _SHARE * mark:
             mark, idle = missing, 0
         goes_on = advance(root, max(reached, 0.0) ** (2.0 / 3.0) - force ** (2.0 / 3.0), _SHORTEST, _MOST)
-        noise = iterated and ((best <= _NOISE and idle >= _IDLE) or (best <= _RESTLESS and _is_restless(n, arrays)))
+        noise = best <= _NOISE and (slow or idle >= _IDLE)
+        noise = iterated and (noise or (best <= _RESTLESS and _is_restless(n, arrays)))
         quick = starts and n == 1 and arrays.result[0].iterations <= _QUICK
         if missing <= tolerance or noise or idle >= _JUMP or not goes_on:
             break

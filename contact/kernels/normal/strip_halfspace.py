@@ -49,6 +49,8 @@ from contact.kernels.rows import Sample, Strip, Vector
 MAX_ITERATIONS = 60
 #: An iterate that did not converge is returned if it changes by less than this; otherwise ANALYN's solution is.
 USABLE = 0.02
+#: Tolerance of a solution that is only a start for the next one.
+BRIEF = 1e-2
 #: Largest mean slope of the line of the strips' middles at which strips count as in line.
 SLIGHT = 0.045
 #: Pressure of a strip over that on the line through its neighbours', up to which a narrow one is believed, and the width over
@@ -244,6 +246,7 @@ def _solve(sep, case, load, brief, workspace, result):
     by_load = load > 0.0 or case.load_kind != LoadKind.APPROACH
     amount = load if load > 0.0 else case.amount if by_load else case.amount - result.touch
     tolerance = case.tolerance if case.tolerance > 0.0 else TOLERANCE
+    tolerance = max(tolerance, BRIEF) if brief else tolerance
     skew, unit = _skew(n_strips, strips), 1.0 / (math.pi * modulus)
     start_low, start_high = result.edges[0], result.edges[2 * int(strips[Strip.PATCH, n_strips - 1]) + 1]
     panels, n_panels = recall(sep, n, start_low, start_high, workspace)
@@ -287,7 +290,10 @@ def _solve(sep, case, load, brief, workspace, result):
 
 @kernel
 def strips_under(load, brief, sep, case, workspace, result):
-    """As `strip_halfspace`, for a `load` > 0 [N] with ANALYN's start at the approach of the case. If `brief`, no peak is read."""
+    """As `strip_halfspace`, for a `load` > 0 [N] with ANALYN's start at the approach of the case.
+
+    A `brief` solution ends at `BRIEF`, and no peak is read.
+    """
     image, space = is_image(sep.g), workspace.space
     face(image, space.memory)
     n = _solve(turn_samples(sep, image, space.turned), case, load, brief, workspace, result)
