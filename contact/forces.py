@@ -228,7 +228,7 @@ def _creepages(given: Any) -> tuple[ArrayLike, ArrayLike, ArrayLike]:
     if isinstance(given, Sequence) and given and all(isinstance(one, Creepage) for one in given):
         vx, vy, phi = ([getattr(one, name) for one in given] for name in _PARTS)
         return vx, vy, phi
-    if not isinstance(given, tuple | list | np.ndarray) or len(given) != 3:
+    if not isinstance(given, tuple | list | np.ndarray) or not getattr(given, "ndim", 1) or len(given) != 3:
         raise ContactError(f"creepage = {given!r} is neither a contact.Creepage nor (longitudinal, lateral, spin)")
     vx, vy, phi = given
     return vx, vy, phi

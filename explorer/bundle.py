@@ -136,6 +136,7 @@ RULES = (
     *(
         "NARROWEST",
         "WIDEST",
+        "USUAL_WIDTH",
         "FLANGE",
         "FLANGE_BACK",
         "TIP_FROM_TAPE",

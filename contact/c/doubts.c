@@ -55,6 +55,8 @@ int wr_pair_doubts(const wr_pair_options *o, const wr_pair_input *in) {
     const wr_motion *m = &in->motion;
     const int under_load = in->height == WR_HEIGHT_LOAD || in->height == WR_HEIGHT_VERTICAL;
     return doubt(U_POSE_Y, m->y) | doubt(U_POSE_ROLL, m->roll) | doubt(U_POSE_YAW, m->yaw) | doubt(U_SPEED, m->vx) |
+           doubt(U_VELOCITY_Y, m->vy) | doubt(U_VELOCITY_Z, m->vz) | doubt(U_VELOCITY_ROLL, m->roll_rate) |
+           doubt(U_VELOCITY_YAW, m->yaw_rate) |
            doubt(U_SLIP, fabs(m->vx) > WR_SLOWEST ? 1.0 + m->spin * o->wheel_radius / m->vx : 0.0) |
            doubt(U_WHEEL_LOAD, under_load ? in->amount : 0.0) | doubt_surface(&in->surface);
 }

@@ -19,7 +19,7 @@ from contact.reading.text import content
 
 #: Of a drawing's extent: distance of points on long lines, what is long, chords off arcs, distance of ends that meet.
 _SPACING, _LONG, _CHORD, _TOGETHER = 1 / 400, 1 / 30, 1e-6, 1e-4
-_OWN = {1: "inch", 4: "mm", 6: "m"}  # $INSUNITS of DXF
+_OWN = {1: "inch", 4: "mm", 5: "cm", 6: "m"}  # $INSUNITS of DXF
 
 
 def dxf(path: Path, choice: Choice) -> Content:

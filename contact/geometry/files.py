@@ -41,7 +41,7 @@ from contact.geometry.shape import Kind, Profile
 from contact.reading.text import LARGEST_FILE as LARGEST_FILE
 from contact.reading.text import require_file
 
-Unit = Literal["m", "mm", "inch"]
+Unit = Literal["m", "mm", "cm", "inch"]
 Side = Literal["right", "left"]
 Zero = Literal["file", "flange_back", "shape"]
 UNITS: dict[str, float] = inspection.UNITS
@@ -79,7 +79,7 @@ def read(
         File; its suffix tells the format.
     kind : {"wheel", "rail"}, optional
         Required for plain columns; otherwise it must agree with the suffix.
-    unit : {"m", "mm", "inch"}, optional
+    unit : {"m", "mm", "cm", "inch"}, optional
         Unit of length. Required for plain columns; otherwise it replaces the format's own unit.
     side : {"right", "left"}, optional
         Side that the file shows, seen from behind with y to the right. A left side is mirrored. Required for plain columns.

@@ -13,13 +13,18 @@ from contact.geometry.roughness import Points, backward, kinks, noise, spike_hei
 
 Kind = Literal["wheel", "rail"]
 
-UNITS = {"m": 1.0, "mm": 1e-3, "inch": 0.0254}  # of profile files [m]
+UNITS = {"m": 1.0, "mm": 1e-3, "cm": 1e-2, "inch": 0.0254}  # of profile files [m]
 NARROWEST, WIDEST = 0.03, 0.2  # usual range of the width of a wheel or a rail's head [m]
+USUAL_WIDTH = 0.1  # between those of a rail's head and a wheel [m]
 LEAST_WIDTH = 1e-3  # of a twin disc [m]
 FLANGE_BACK = 0.070  # distance of the back of the flange from the tape circle [m] (EN 13715)
 TIP_FROM_TAPE = 0.055  # distance of the flange's tip from the tape circle [m] (EN 13715)
 FLANGE = 0.015  # a flange's tip lies at least this far below the median of a wheel's points [m]
 HIGHEST = 0.042  # a worn flange is lower [m]
+HEAD, FLAT = (
+    0.06,
+    3e-3,
+)  # the middle of a rail's head, so wide, falls at least so far to its sides (EN 13674-1: 3.8 mm) [m]
 _BEHIND = 4e-3  # a wheel that goes on so far behind the usual place of the tip has a flange [m]
 CROWN_FROM_GAUGE = 0.036  # half the width of a rail's head [m], from its gauge face
 
@@ -69,6 +74,7 @@ class Fault(StrEnum):
     SIDE = "offset to the side"
     TURNED = "turned"
     FLANGE = "flange"
+    FLAT = "flat"
 
 
 #: Faults with which the points are no curve: `read` refuses them unless it may repair them.
@@ -177,6 +183,9 @@ def place(points: Points, kind: Kind, scale: float = 1.0) -> list[Finding]:
         if deeper > _DEEPER * scale:
             seen = f"the field side reaches {_mm(deeper)} deeper than the gauge side"
             found.append(Finding(Fault.SIDE, seen, "if the file shows the other side, set side", points[[0, -1]]))
+        if np.ptp(y) > HEAD * scale and np.ptp(z) < FLAT * scale:
+            seen = f"all points of {_mm(np.ptp(y))} of width lie within {_mm(np.ptp(z))} of height, a head falls to its sides"
+            found.append(Finding(Fault.FLAT, seen, "are y and z in one unit?", points[:0]))
         return found
     tip = int(np.argmax(z)) if has_flange(points / scale) else 0
     if tip and abs(y[tip] + TIP_FROM_TAPE * scale) > SIDE * scale:
@@ -260,7 +269,11 @@ def misplaced(points: Points, kind: Kind, unit: float = 0.0) -> tuple[str, str, 
         return fault
     if not LEAST_WIDTH <= width <= WIDEST:
         seen = f"the profile is {width:g} m wide, outside the range [{LEAST_WIDTH:g}, {WIDEST:g}] of wheels and rails"
-        return seen, f"set unit to {' or '.join(map(repr, _fitting(width, unit) or UNITS))}", "the unit is m"
+        fitting = " or ".join(map(repr, _fitting(width, unit)))
+        cure = (
+            f"set unit to {fitting}" if fitting else f"no unit of {', '.join(UNITS)} fits: which columns hold y and z?"
+        )
+        return seen, cure, "the unit is m"
     shape, down = _appearance(points)
     if shape not in (None, kind):
         seen = "a wheel: a flange near one end" if shape == "wheel" else "a rail: a crown in the middle"
@@ -304,8 +317,10 @@ def narrow(points: Points, unit: float) -> list[Finding]:
 
 
 def _fitting(width: float, unit: float) -> list[str]:
-    """Return the units in which a profile would have a usual width; `unit` is that in which it has `width` [m]."""
-    return [name for name, size in UNITS.items() if unit and NARROWEST <= width * size / unit <= WIDEST]
+    """Return the units in which a profile would have a usual width, the likeliest first; `unit` is that of `width` [m]."""
+    widths = {name: width * size / unit for name, size in UNITS.items()} if unit and width else {}
+    likely = sorted(widths, key=lambda name: abs(np.log(widths[name] / USUAL_WIDTH)))
+    return [name for name in likely if NARROWEST <= widths[name] <= WIDEST]
 
 
 def scans(points: Points) -> list[Points]:

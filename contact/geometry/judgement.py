@@ -98,6 +98,12 @@ def judged(
     if slim and content.unit is not None:
         raise ContactError(f"path = {str(path)!r}: {slim[0].seen}; {slim[0].cure}")
     findings += [*found, *inspection.place(curve, kind, scale), *slim]
+    named = any(finding.fault is Fault.FLANGE for finding in findings)
+    if kind == "wheel" and not content.downwards and not named and not inspection.has_flange(curve / scale):
+        seen = (
+            "no flange shows where z points; it was taken so that the wheel rises to its field side, or to both sides"
+        )
+        findings.append(Finding(Fault.FLANGE, seen, "if it does not, give Profile('wheel', y, z)", curve[:0]))
     cured = REPAIRED if mended else frozenset()
     dropped = len(measured) - len(curve) if mended else 0
     repaired = tuple(finding for finding in findings if finding.fault in cured)

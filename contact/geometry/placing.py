@@ -22,7 +22,7 @@ def placed(
     `zero` is the option of `contact.geometry.files.read`, `scale` that of a model.
     """
     if not content.downwards:
-        points = _downwards(points, kind)
+        points = _downwards(points, kind, content.outwards, scale)
     outwards = _is_outwards(points) if content.outwards is None else content.outwards
     points = points - [content.datum, 0.0]
     points = points if outwards else points * [-1.0, 1.0]
@@ -69,16 +69,23 @@ def _origin(points: Points, kind: Kind, path: Path) -> Points:
     return np.array([tape, np.interp(tape, y[outside], z[outside])])
 
 
-def _downwards(points: Points, kind: Kind) -> Points:
-    """Return the points with z down. Most of a rail is its head, near the top. A wheel's flange is far below the median."""
+def _downwards(points: Points, kind: Kind, outwards: bool | None, scale: float) -> Points:
+    """Return the points with z down. Most of a rail is its head, near the top. A wheel's flange is far below the median; a
+    wheel without a flange rises to its field side, or to both sides."""
     z = points[:, 1]
     if kind == "rail":
         down = z.mean() > np.median(z)
     else:
         across = points[np.argsort(points[:, 0], kind="stable")]
         even = np.linspace(across[0, 0], across[-1, 0], 201)
-        middle = np.median(np.interp(even, across[:, 0], across[:, 1]))  # also with parts missing
-        down = z.max() - middle > middle - z[_tread(points)].min()
+        heights = np.interp(even, across[:, 0], across[:, 1])  # also with parts missing
+        middle = float(np.median(heights))
+        below, above = z.max() - middle, middle - z[_tread(points)].min()
+        if max(below, above) > inspection.FLANGE * scale:
+            down = below > above
+        else:
+            ends = {True: heights[-20:], False: heights[:20], None: np.r_[heights[:20], heights[-20:]]}
+            down = ends[outwards].mean() < middle
     return points if down else points * [1.0, -1.0]
 
 

@@ -19,8 +19,9 @@ Side = Literal["right", "left"]
 
 MAX_PENETRATION = 2e-3  # [m] that of a wheel under 10 MN; a larger value has a wrong unit
 _ROLLING, _IDEAL = Velocity(), Irregularity()
-_Y, _TURNED, _LOAD, _SPEED, _SLIP, _FRICTION = (
-    USUAL[name] for name in ("pose.y", "pose.yaw", "wheel load", "speed", "slip", "friction")
+_Y, _TURNED, _LOAD, _SPEED, _SLIP, _FRICTION, _DRIFT, _TURNS = (
+    USUAL[name]
+    for name in ("pose.y", "pose.yaw", "wheel load", "speed", "slip", "friction", "velocity.y", "velocity.yaw")
 )
 
 
@@ -113,7 +114,8 @@ class Posed(OwnsArrays):
         rolls = spin is None or (
             abs(forward) > SLOWEST and abs(1.0 + spin * self.nominal_radius / forward) <= _SLIP.largest
         )
-        return rolls and abs(forward) <= _SPEED.largest
+        drift, turns = max(abs(velocity.y), abs(velocity.z)), max(abs(velocity.roll), abs(velocity.yaw))
+        return rolls and abs(forward) <= _SPEED.largest and drift <= _DRIFT.largest and turns <= _TURNS.largest
 
     def doubt(
         self, pose: Pose, velocity: Velocity | None, load: float | None, name: str = "load", friction: float = 0.0
@@ -130,6 +132,7 @@ class Posed(OwnsArrays):
             asked.append(("wheel load", load, name))
         if velocity is not None:
             asked.append(("speed", velocity.forward, "velocity.forward"))
+            asked += [(f"velocity.{part}", getattr(velocity, part), "") for part in ("y", "z", "roll", "yaw")]
         if velocity is not None and velocity.spin is not None and abs(velocity.forward) > SLOWEST:
             slip = 1.0 + velocity.spin * self.nominal_radius / velocity.forward
             asked.append(("slip", slip, f"velocity.spin = {velocity.spin:g}: longitudinal creepage"))

@@ -577,13 +577,17 @@ enum {
     WR_DOUBT_POSE_Y = 2048,
     WR_DOUBT_POSE_ROLL = 4096,
     WR_DOUBT_POSE_YAW = 8192,
-    WR_DOUBT_SLIP = 16384,
-    WR_DOUBT_WHEEL_LOAD = 32768,
-    WR_DOUBT_BEND = 65536,
-    WR_DOUBT_BEYOND = 131072,
-    WR_DOUBT_GAP_ERROR = 262144,
-    WR_DOUBT_GAP_ERROR_INTERACTING = 524288,
-    WR_DOUBT_N = 1048576,
+    WR_DOUBT_VELOCITY_Y = 16384,
+    WR_DOUBT_VELOCITY_Z = 32768,
+    WR_DOUBT_VELOCITY_ROLL = 65536,
+    WR_DOUBT_VELOCITY_YAW = 131072,
+    WR_DOUBT_SLIP = 262144,
+    WR_DOUBT_WHEEL_LOAD = 524288,
+    WR_DOUBT_BEND = 1048576,
+    WR_DOUBT_BEYOND = 2097152,
+    WR_DOUBT_GAP_ERROR = 4194304,
+    WR_DOUBT_GAP_ERROR_INTERACTING = 8388608,
+    WR_DOUBT_N = 16777216,
 };
 
 /* X(name, its text, largest and least usual magnitude, what is usual) */
@@ -602,6 +606,10 @@ enum {
     X(POSE_Y, "pose.y", 0.015, 0.0, "a flange touches at about 0.007 m; the unit is m") \
     X(POSE_ROLL, "pose.roll", 0.05, 0.0, "a wheelset has less than 0.03 rad; the unit is rad") \
     X(POSE_YAW, "pose.yaw", 0.05, 0.0, "a wheelset has less than 0.03 rad; the unit is rad") \
+    X(VELOCITY_Y, "velocity.y", 2.0, 0.0, "a wheelset moves aside or up and down by less than 0.5 m/s; the unit is m/s") \
+    X(VELOCITY_Z, "velocity.z", 2.0, 0.0, "a wheelset moves aside or up and down by less than 0.5 m/s; the unit is m/s") \
+    X(VELOCITY_ROLL, "velocity.roll", 3.0, 0.0, "a wheelset rolls and yaws by less than 0.5 rad/s; the unit is rad/s") \
+    X(VELOCITY_YAW, "velocity.yaw", 3.0, 0.0, "a wheelset rolls and yaws by less than 0.5 rad/s; the unit is rad/s") \
     X(SLIP, "slip", 0.45, 0.0, "a rolling wheel has less than 0.02; spin is negative when rolling forward, about -forward/radius") \
     X(WHEEL_LOAD, "wheel load", 5000000.0, 1000.0, "a wheel carries 20 to 150 kN; the unit is N") \
     X(BEND, "bend", 0.4, 0.0, "the contact angle changes by more than 23 degrees over the patch, which strips take as plane: a lateral force of the pressure of up to 0.1 of the load is left out, and creep forces change by 0.03 of friction times load in the median. A conformal surface has both, but the influence numbers of a plane: 0.02 to 0.06 of friction times load in the median (limits.md)") \

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+import numpy as np
+
 from contact.errors import ContactError
 from contact.inputs.options import CREEPAGE
 
@@ -50,6 +52,8 @@ def as_creepage(value: object) -> Creepage:
     """Return `value`, a Creepage or (longitudinal, lateral, spin), as a Creepage, or raise a ContactError."""
     if isinstance(value, Creepage):
         return value
+    if isinstance(value, np.ndarray):
+        value = value.tolist()
     if not isinstance(value, tuple | list) or len(value) != 3:
         raise ContactError(f"creepage = {value!r} is neither a contact.Creepage nor (longitudinal, lateral, spin)")
     return Creepage(*value)

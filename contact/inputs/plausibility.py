@@ -26,6 +26,8 @@ class Usual(NamedTuple):
 
 _CREEPAGE = Usual(0.1, "a rolling wheel has less than 0.02 (20 per mille); is it in per mille?")
 _TURNED = Usual(0.05, "a wheelset has less than 0.03 rad; the unit is rad")
+_DRIFT = Usual(2.0, "a wheelset moves aside or up and down by less than 0.5 m/s; the unit is m/s")
+_TURNS = Usual(3.0, "a wheelset rolls and yaws by less than 0.5 rad/s; the unit is rad/s")
 _LOAD = "a wheel carries 20 to 150 kN; the unit is N"
 #: Usual values under the names of the arguments. A patch has any share of a wheel's load, but hardly as few newtons as a wheel
 #: has kilonewtons.
@@ -44,6 +46,8 @@ USUAL = {
     "pose.y": Usual(0.015, "a flange touches at about 0.007 m; the unit is m"),
     "pose.roll": _TURNED,
     "pose.yaw": _TURNED,
+    **dict.fromkeys(("velocity.y", "velocity.z"), _DRIFT),
+    **dict.fromkeys(("velocity.roll", "velocity.yaw"), _TURNS),
     # of a wheel that is driven or braked
     "slip": Usual(
         0.45, "a rolling wheel has less than 0.02; spin is negative when rolling forward, about -forward/radius"

@@ -62,6 +62,8 @@ function trueRows(rows, findings) {
 function inMetres(rows, rules, findings) {
   const y = rows.map(row => row[0]), width = Math.max(...y) - Math.min(...y);
   const found = Object.entries(rules.units).filter(([, size]) => rules.narrowest <= width * size && width * size <= rules.widest);
+  const unlikely = ([, size]) => Math.abs(Math.log(width * size / rules.usual_width));
+  found.sort((a, b) => unlikely(a) - unlikely(b));
   if (!found.length)
     throw new ProfileError(`the points are ${width.toPrecision(3)} wide; a wheel or a rail is ${mm(rules.narrowest)} to ${mm(rules.widest)} wide, and no unit of ${Object.keys(rules.units).join(", ")} makes that`);
   const [name, size] = found[0];

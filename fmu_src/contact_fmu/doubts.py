@@ -31,6 +31,7 @@ _ROWS = {
     "pose.y": "pose.y",
     "pose.roll": "pose.roll",
     "pose.yaw": "pose.yaw",
+    **{name: name for name in ("velocity.y", "velocity.z", "velocity.roll", "velocity.yaw")},
 }
 #: Row of an answer → rule.
 _ANSWERS = {"force.n": "N", "wheel.Q": "N", "bend": "bend", "beyond": "beyond"}

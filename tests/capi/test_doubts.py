@@ -98,14 +98,18 @@ def test_a_pair_is_doubted_as_in_python(library, seed):
             float(rng.choice((-20.0, 0.0, 20.0, 40.0, 144.0, 200.0))),
             float(rng.choice((-43.5, 43.5, -87.0, -313.0))),
         )
+        rates = rng.choice((0.0, 0.2, 5.0), 4).tolist()  # y, z, roll, yaw
         height, amount = int(rng.choice((0, 2, 3))), float(rng.choice((0.0, 80.0, 80e3, 8e7)))
         friction = float(rng.choice((0.3, 35.0)))
         motion["y"], motion["roll"], motion["yaw"], motion["vx"], motion["spin"] = y, roll, yaw, vx, spin
+        motion["vy"], motion["vz"], motion["roll_rate"], motion["yaw_rate"] = rates
         pair.input["height"], pair.input["amount"], pair.input["surface"]["mu"] = height, amount, friction
 
-        def doubt(pose=(y, 0.0, roll, yaw), velocity=(vx, spin), load=amount if height else None, friction=friction):
+        velocity = Velocity(vx, *rates, spin=spin)
+
+        def doubt(pose=(y, 0.0, roll, yaw), velocity=velocity, load=amount if height else None, friction=friction):
             profiles._doubted.clear()  # it warns once of each
-            profiles.doubt(Pose(*pose), Velocity(velocity[0], spin=velocity[1]), load)
+            profiles.doubt(Pose(*pose), velocity, load)
             doubt_value("friction", friction)
 
         found = hints(library, library.call("wr_pair_doubts", pair.options, pair.input))

@@ -51,12 +51,11 @@ def test_profiles_that_lie_as_they_should_are_not_called_turned():
 
 
 @pytest.mark.parametrize(("ending", "shape"), [("whl", WHEEL), ("ban", RAIL)])
-@pytest.mark.parametrize(("unit", "name"), [(0.0254, "inch"), (1.0, "m")])
-def test_a_wrong_unit_is_named_with_the_one_that_fits(tmp_path, ending, shape, unit, name):
+@pytest.mark.parametrize(("unit", "name"), [(0.0254, "inch"), (1e-2, "cm"), (1.0, "m")])
+def test_a_wrong_unit_is_named_with_the_likeliest_first(tmp_path, ending, shape, unit, name):
     path = miniprof(tmp_path / f"wrong.{ending}", shape.y, shape.z, unit)
     said = call("check", path, code=2).stdout
     assert f"set --profile-unit to '{name}'" in " ".join(said.split())
-    assert " or " not in said.partition("set --profile-unit")[2]
 
 
 @pytest.mark.parametrize(("ending", "shape"), [("whl", WHEEL), ("ban", RAIL)])

@@ -119,7 +119,7 @@ def test_rows_of_nan_and_back_steps_and_scans_are_told(tmp_path):
     ("kind", "change", "said"),
     [
         ("rail", lambda y, z: (y, z), "the points have the shape of a wheel"),
-        ("any", lambda y, z: (0.1 * y, 0.1 * z), "no unit of m, mm, inch makes that"),
+        ("any", lambda y, z: (1e3 * y, 1e3 * z), "no unit of m, mm, cm, inch makes that"),
         ("any", lambda y, z: (y[:5], z[:5]), "at least ten rows"),
         ("any", lambda y, z: (np.random.default_rng(1).permutation(y), z), "not in order"),
         ("any", lambda y, z: (y[y > -0.02], 0.0 * z[y > -0.02]), "could be a wheel or a rail"),

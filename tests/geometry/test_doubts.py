@@ -3,11 +3,12 @@
 import math
 import warnings
 
+import numpy as np
 import pytest
 
 import contact
 from contact import ContactError
-from contact.errors import PlausibilityWarning
+from contact.errors import PlausibilityWarning, ProfileWarning
 from contact.geometry import profile
 from contact.geometry.surfaces import SurfacePair
 from contact.geometry.wheelset import Pair, Pose, Velocity, contacts
@@ -165,7 +166,7 @@ def test_no_standard_profile_is_doubted(kind):
 
 
 def test_solve_and_forces_take_the_same_forms_of_creepage():
-    forms = contact.Creepage(1e-3, 2e-3, 0.1), (1e-3, 2e-3, 0.1), [1e-3, 2e-3, 0.1]
+    forms = contact.Creepage(1e-3, 2e-3, 0.1), (1e-3, 2e-3, 0.1), [1e-3, 2e-3, 0.1], np.array([1e-3, 2e-3, 0.1])
     known = contact.solve(SEPARATION, forms[0], load=80e3)
     for form in forms:
         one, many = contact.solve(SEPARATION, form, load=80e3), contact.forces(SEPARATION, form, load=80e3)
@@ -173,7 +174,7 @@ def test_solve_and_forces_take_the_same_forms_of_creepage():
         assert contact.Solver().forces(SEPARATION, form, load=80e3).Fx == known.Fx
     assert contact.forces(SEPARATION, [forms[0]] * 2, load=80e3).Fx.tolist() == [known.Fx] * 2
     for entry in (contact.solve, contact.forces):
-        for wrong in (None, 1e-3, (1e-3, 0.0), "abc"):
+        for wrong in (None, 1e-3, (1e-3, 0.0), "abc", np.zeros(2), np.array(1e-3)):
             with pytest.raises(ContactError, match=r"^creepage"):
                 entry(SEPARATION, wrong, load=80e3)
 
@@ -190,6 +191,14 @@ def test_a_wrong_sign_of_the_axles_spin_is_doubted(solver):
     assert not doubts(contacts, WHEEL, RAIL, Pose(), Velocity(forward=0.0, spin=1.0), load=80e3)
 
 
+def test_velocities_in_other_units_are_doubted(solver):
+    for part, value in (("y", 5.0), ("z", -20.0), ("roll", 5.0), ("yaw", -8.0)):  # mm/s, degrees/s
+        solver.pair._doubted.clear()
+        with pytest.warns(PlausibilityWarning, match=rf"^velocity\.{part} = {value:g}: .*the unit is "):
+            solver.solve(Pose(), Velocity(forward=20.0, **{part: value}), load=80e3)
+    assert not doubts(contacts, WHEEL, RAIL, Pose(), Velocity(20.0, y=0.5, z=0.5, roll=0.5, yaw=0.5), load=80e3)
+
+
 def test_errors_name_the_likely_slip():
     with pytest.raises(ContactError, match=r"^pose\.y = 3: .*\]-0\.\d+, 0\.\d+\[ m; is it in mm\?$"):
         contacts(WHEEL, RAIL, Pose(y=3), load=80e3)
@@ -200,10 +209,13 @@ def test_errors_name_the_likely_slip():
         contact.solve(patch, patch.creepage, load=80e3)
 
 
-def test_files_in_inches_are_read(tmp_path):
-    points = "\n".join(f"{y / 0.0254:.9f} {z / 0.0254:.9f}" for y, z in zip(WHEEL.y, WHEEL.z, strict=True))
+@pytest.mark.parametrize(("unit", "size"), [("inch", 0.0254), ("cm", 1e-2)])
+def test_the_unit_of_a_file_is_found_where_another_one_is_given(tmp_path, unit, size):
+    points = "\n".join(f"{y / size:.9f} {z / size:.9f}" for y, z in zip(WHEEL.y, WHEEL.z, strict=True))
     (path := tmp_path / "wheel.txt").write_text(points)
-    read = profile.read(path, kind="wheel", unit="inch", side="right")
+    read = profile.read(path, kind="wheel", unit=unit, side="right")
     assert abs(read.z - WHEEL.z).max() < 1e-9
-    with pytest.raises(ContactError, match=r"m wide, outside the range .*set unit to 'inch'"):
+    with pytest.raises(ContactError, match=rf"m wide, outside the range .*set unit to '{unit}'"):
         profile.read(path, kind="wheel", unit="m", side="right")
+    with pytest.warns(ProfileWarning, match=rf"narrow: .*set unit to '{unit}'"):
+        profile.read(path, kind="wheel", unit="mm", side="right")

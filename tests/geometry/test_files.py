@@ -126,6 +126,7 @@ def test_files_without_a_profile_raise_an_error_with_the_reason(tmp_path, name, 
         (WHEEL, 1e3, "m", r"wheel\.txt.*is 129 m wide, outside the range \[0\.001, 0\.2\].*set unit"),
         (WHEEL, 1.0, "mm", r"is 0\.00012\d+ m wide"),
         (RAIL, 1e3, "m", r"is 73\.\d+ m wide"),
+        (RAIL, 1e6, "mm", r"is 73\.\d+ m wide.*; no unit of m, mm, cm, inch fits: which columns hold y and z\?"),
     ],
 )
 def test_a_wrong_unit_is_detected_by_the_width(tmp_path, shape, per_metre, unit, message):
@@ -152,6 +153,12 @@ def test_a_wrong_unit_in_a_simpack_header_is_detected_and_corrected_by_the_optio
         (WHEEL, "mm", 1e-3, r"flange: there is no flange at y = -55 mm; all points lie within 0\.0306 mm of height"),
         (WHEEL, "mm", 1 / 25.4, r"flange: there is no flange at y = -55 mm; .*; are y and z in one unit"),
         (WHEEL, "mm", 2.0, "flange: the flange is 56 mm high, usually 25 to 40 mm"),
+        (
+            RAIL,
+            "mm",
+            0.1,
+            r"flat: all points of 73\.2 mm of width lie within 2\.73 mm of height.*are y and z in one unit",
+        ),
     ],
 )
 def test_y_and_z_in_different_units_or_to_different_scales_are_named(tmp_path, shape, unit, of_z, said):
@@ -313,3 +320,25 @@ def test_a_missing_file_is_called_missing_also_without_a_suffix():
 @pytest.mark.parametrize("text", ["1/40", "1:40", "0.025"])
 def test_an_inclination_may_be_a_ratio(text):
     np.testing.assert_array_equal(profile.named("60E1", inclination=text).z, profile.rail_60e1(1 / 40).z)
+
+
+@pytest.mark.parametrize("name", profile.names("wheel"))
+@pytest.mark.parametrize("upwards", [False, True])
+def test_a_tread_without_its_flange_rises_to_the_field_side(tmp_path, name, upwards):
+    wheel = profile.named(name)
+    tread = wheel.y > -0.02
+    y, z = wheel.y[tread], wheel.z[tread]
+    path = wheel_file(tmp_path / "tread.txt", y, -z if upwards else z)
+    with pytest.warns(ProfileWarning, match="flange: no flange shows where z points"):
+        read = profile.read(path, **COLUMNS)
+    np.testing.assert_allclose(read.z, z, rtol=0, atol=1e-7)
+
+
+@pytest.mark.parametrize("upwards", [False, True])
+def test_a_crowned_disc_rises_to_both_sides(tmp_path, upwards):
+    y = np.linspace(-0.03, 0.03, 101)
+    z = -(y**2) / (2.0 * 0.1)
+    path = wheel_file(tmp_path / "disc.txt", y, -z if upwards else z)
+    with pytest.warns(ProfileWarning, match="no flange shows where z points"):
+        read = profile.read(path, **COLUMNS)
+    np.testing.assert_allclose(read.z, z, rtol=0, atol=1e-7)

@@ -1,5 +1,7 @@
 """Measured track: it covers the run or is refused, stations of a line, direction of travel, millimetres."""
 
+import warnings
+
 import numpy as np
 import pytest
 
@@ -131,3 +133,34 @@ def test_tables_that_reach_into_the_run_and_single_places_are_not_warned_of(tmp_
     more = "[speed]\nat = [0.0, 20.0]\nvalues = [20.0, 30.0]\n[[torque]]\nat = [90.0]\nvalues = [1e3]\n"
     path.write_text(f'name = "s"\nlength = 40.0\n{more}', encoding="utf-8")
     scenario.read(path)
+
+
+def test_columns_are_taken_by_their_headings(tmp_path):
+    straight = over(tmp_path, ROWS)
+    order = [3, 0, 2, 4, 1]
+    names = [*(HEAD.split(",")[k] for k in order), "speed"]
+    rows = np.column_stack((ROWS[:, order], np.full(len(ROWS), 20.0)))
+    np.savetxt(tmp_path / "m.csv", rows, delimiter=",", header=",".join(names), comments="")
+    mixed = np.array(Measured(file=str(tmp_path / "m.csv")).over(np.arange(0.0, 40.0, 0.1)))
+    np.testing.assert_array_equal(mixed, straight)
+
+
+def test_a_heading_over_another_column_is_refused(tmp_path):
+    np.savetxt(tmp_path / "m.csv", ROWS, delimiter=",", header="km,vertical,alignment,cross_level,gauge", comments="")
+    with pytest.raises(
+        ContactError, match=r"'vertical' stands over column 2; name all of distance, alignment, vertical"
+    ):
+        Measured(file=str(tmp_path / "m.csv")).over(np.zeros(1))
+    np.savetxt(tmp_path / "m.csv", ROWS, delimiter=",", header="km,Richtung,Höhe,Querhöhe,Spur", comments="")
+    Measured(file=str(tmp_path / "m.csv")).over(np.zeros(1))
+
+
+def test_missing_stations_within_the_run_are_told(tmp_path):
+    kept = (S < 12.0) | (S > 17.0)
+    path = written(tmp_path, ROWS[kept])
+    with pytest.warns(PlausibilityWarning, match=r"track\.measured: no stations from 11\.75 to 17\.25 m of the run"):
+        scenario.read(path)
+    for within in ((S < 12.0) | (S > 13.0), (S < 50.0) | (S > 60.0)):  # a few stations, beyond the run
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")
+            scenario.read(written(tmp_path, ROWS[within]))

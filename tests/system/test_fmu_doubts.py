@@ -15,6 +15,7 @@ PAIR = [
     ({"friction.coefficient": 35.0}, "friction.coefficient = 35: "),
     ({"load.normal_force": 80.0}, "load.normal_force = 80: "),
     ({"pose.roll": 0.06}, "pose.roll = 0.06: "),
+    ({"velocity.y": 5.0}, "velocity.y = 5: "),
 ]
 
 
@@ -54,6 +55,14 @@ def test_what_is_not_used_or_zero_is_not_doubted(opened):
     fmu.update({"load.kind": 2, "load.approach": 5e-5, "load.normal_force": 80.0, "speed": 0.0})
     fmu.initialize().step()
     assert warned(fmu) == []
+
+
+def test_a_load_below_zero_is_none_and_not_doubted(opened):
+    fmu = opened("WheelRailPair")
+    fmu.update({"load.normal_force": -1e-9})
+    fmu.initialize().step()
+    assert warned(fmu) == []
+    assert fmu["force.z"] == 0.0
 
 
 def test_fmi_3_says_the_same(native_fmi3_folder):

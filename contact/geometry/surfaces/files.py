@@ -21,14 +21,14 @@ import re
 from collections.abc import Callable, Iterator, Sequence
 from os import PathLike
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Literal, NamedTuple, TypeVar
+from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from contact.arrays import Array
 from contact.errors import ContactError, ProfileWarning, warn
-from contact.geometry.files import UNITS
+from contact.geometry.files import UNITS, Unit
 from contact.geometry.formats import Choice, columns, simpack
 from contact.geometry.surfaces.slices import MOST_SLICES
 from contact.reading.text import lines_of
@@ -57,7 +57,7 @@ def read_rail(
     surface: type[Rail],
     *,
     s: ArrayLike | None = None,
-    unit: Literal["m", "mm", "inch"] = "mm",
+    unit: Unit = "mm",
     mirror_y: bool = False,
     mirror_z: bool = False,
     smooth: Callable[[Array], Array] | None = None,
@@ -73,7 +73,7 @@ def read_rail(
         `RailSurface`.
     s : array_like, optional
         Positions of the slices of a folder [m]. Not for a file, which has its own.
-    unit : {"m", "mm", "inch"}
+    unit : {"m", "mm", "cm", "inch"}
         Unit of files of plain columns. Simpack's files name their own.
     mirror_y, mirror_z : bool
         Reverse the sign of y or z. The result must have y to the field side of a right rail and z down.
@@ -95,7 +95,7 @@ def read_wheel(
     surface: type[Wheel],
     *,
     theta: ArrayLike | None = None,
-    unit: Literal["m", "mm", "inch"] = "mm",
+    unit: Unit = "mm",
     mirror_y: bool = False,
     mirror_z: bool = False,
     smooth: Callable[[Array], Array] | None = None,

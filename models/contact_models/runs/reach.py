@@ -33,7 +33,7 @@ def require_series(scenario: Scenario, where: str) -> None:
 
 
 def doubt(scenario: Scenario, where: str) -> None:
-    """Warn of tables over distance or time, curves and slices to which the run does not come.
+    """Warn of tables over distance or time, curves and slices to which the run does not come, and of gaps in a measured track.
 
     A table is constant before its first place and behind its last one. One with several places of which none is within the run
     is hardly meant so: its places may be those of a line.
@@ -53,6 +53,8 @@ def _unreached(scenario: Scenario) -> Iterator[str]:
     for k, curve in enumerate(d.track.curves):
         if curve.start >= d.length:
             yield f"track.curves[{k}]: it starts at {curve.start:.9g} m, and the run ends at {d.length:.9g} m"
+    for begin, end in d.track.series.gaps(d.length) if d.track.series else ():
+        yield f"track.measured: no stations from {begin:.9g} to {end:.9g} m of the run, over which a curve is drawn"
     for section in scenario.sections:
         if section.begin >= d.length or section.end <= 0.0:
             yield (

@@ -18,6 +18,7 @@ _FARTHEST = 1e9  # distance or value of a measured series; products of larger nu
 _METRES, _MILLIMETRES = 0.05, 0.15
 _LARGEST_ANGLE = 0.2  # a cross-level of 300 mm [rad]
 _HALF_GAUGE = 0.5  # a mean above this is a gauge, not a deviation of it [m]
+_GAP = 8.0  # a distance of stations is a gap from so many times the median on
 DIRECTIONS = ("rising", "falling")
 UNITS = ("m", "mm")
 
@@ -28,9 +29,9 @@ class Measured:
 
     Parameters
     ----------
-    file : path of a CSV file with the columns distance, alignment, vertical, cross_level, gauge in this order and a line of
-        headings: stations [m]; centre line to the right, height downwards [m]; angle by which the left rail lies higher [rad];
-        gauge minus nominal gauge [m]
+    file : path of a CSV file with the columns distance, alignment, vertical, cross_level, gauge by these headings, or in this
+        order below others: stations [m]; centre line to the right, height downwards [m]; angle by which the left rail lies
+        higher [rad]; gauge minus nominal gauge [m]
     start : station at which the run begins [m]; default 0
     direction : "rising", or "falling" for a run towards smaller stations. The channels are as one sees them looking towards
         larger stations
@@ -76,6 +77,13 @@ class Measured:
             f"file = {self.file!r}: the run leads from station {begin:.9g} to {to:.9g} m (front axle), and the file has the "
             f"stations {first:.9g} to {last:.9g} m; {allowed}"
         )
+
+    def gaps(self, end: float) -> list[tuple[float, float]]:
+        """Return the places of a run of length `end` between which stations are missing [m]."""
+        along = self._along()[:, 0]
+        steps = np.diff(along)
+        wide = (steps > _GAP * np.median(steps)) & (along[1:] > 0.0) & (along[:-1] < end)
+        return list(zip(along[:-1][wide].tolist(), along[1:][wide].tolist(), strict=True))
 
     def over(self, s: Array) -> list[Array]:
         """Return values and slopes of the channels at distances of the run, shape (2, n) each.
@@ -140,7 +148,15 @@ class Measured:
     @cached_property
     def _rows(self) -> Array:
         """The rows of the file, in its units: stations and channels."""
-        rows = table(self.file, "file").values
+        names, rows = table(self.file, "file")
+        wanted = ("distance", *CHANNELS)
+        if set(wanted) <= set(names):
+            rows = rows[:, [names.index(name) for name in wanted]]
+        elif displaced := [k for k, name in enumerate(names) if name in wanted and wanted.index(name) != k]:
+            raise ContactError(
+                f"file = {self.file!r}: {names[displaced[0]]!r} stands over column {displaced[0] + 1}; name all of "
+                f"{', '.join(wanted)}, or put them in this order"
+            )
         if not (np.abs(rows) < _FARTHEST).all():
             raise ContactError(f"file = {self.file!r}: a distance or a value is not within {_FARTHEST:g}")
         steps = np.diff(rows[:, 0])

@@ -74,10 +74,10 @@ Status say(const Instance *instance, int64_t number)
 static double unusual(const Instance *instance, const Doubt *d, const double *values, size_t *at)
 {
     for (*at = (size_t)d->value; *at < (size_t)(d->value + d->n); ++*at) {
-        double x = values[*at], size;
+        double x = values[*at];
         if (d->other != NONE) x = fabs(values[d->other]) > SLOWEST ? 1.0 + x * values[d->factor] / values[d->other] : 0.0;
-        size = fabs(x);
-        if ((size > d->largest || (size > 0.0 && size < d->least)) && is_used(&instance->table.variables[*at], values)) return x;
+        /* a load below zero, as of a host's solver, is none */
+        if ((fabs(x) > d->largest || (x > 0.0 && x < d->least)) && is_used(&instance->table.variables[*at], values)) return x;
     }
     return 0.0;
 }
