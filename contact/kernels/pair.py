@@ -268,6 +268,7 @@ def _press_for_load(mode, force, touch, nodes, root, arrays):
             return 0
         growth, rise = result.stiffness / result.N * cosine, (result.approach - patch.approach) / cosine
         motion.z, case.amount, patch.approach = touch + root.x + rise, result.approach, result.approach
+        patch.point_z += rise  # the arms of its forces are those of its creepages
         quick, reached = result.iterations <= _QUICK, force
         if mode == Height.VERTICAL:
             _solve(1, n_strips, rough, False, arrays)

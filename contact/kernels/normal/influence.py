@@ -168,36 +168,20 @@ def logarithm(X):
 
 
 @kernel
-def _place_in_row(log_t):
-    """Return the column of the plane's table before ln t, the share of the next one, and U beyond the table's range of t.
+def in_row(plane, i, u, log_t):
+    """Return U(X, t) for t > 0 at the row and share given by `row_at`.
 
-    There U is logarithmic.
+    The interpolation is bilinear. Beyond the table's range of t, U is logarithmic.
     """
     v = (log_t - LN_T_LOW) * PER_T_STEP
     v = v if v > 0.0 else 0.0  # written so that NaN does not become an index
     extra = 0.5 * math.pi * T_STEP * max(v - (N_T - 1.0), 0.0)
     v = min(v, N_T - 1.000001)
     k = int(v)
-    return k, v - k, extra
-
-
-@kernel
-def in_row(plane, i, u, log_t):
-    """Return U(X, t) for t > 0 at the row and share given by `row_at`. The interpolation is bilinear."""
-    k, v, extra = _place_in_row(log_t)
+    v -= k
     low = plane[i, k] + v * (plane[i, k + 1] - plane[i, k])
     high = plane[i + 1, k] + v * (plane[i + 1, k + 1] - plane[i + 1, k])
     return low + u * (high - low) + extra
-
-
-@kernel
-def off_centre(plane, i, u, log_t):
-    """Return U(X, t) - U(0, t) as `in_row` would give both."""
-    k, v, extra = _place_in_row(log_t)
-    low = plane[i, k] + v * (plane[i, k + 1] - plane[i, k])
-    high = plane[i + 1, k] + v * (plane[i + 1, k + 1] - plane[i + 1, k])
-    centre = plane[0, k] + v * (plane[0, k + 1] - plane[0, k])
-    return (low + u * (high - low) + extra) - (centre + extra)
 
 
 @kernel
@@ -210,8 +194,8 @@ def off_line(centre, plane, X, log_far, log_near):
     i, u, ln_X = row_at(X, logarithm(X))
     if i == N_X:
         return in_row(plane, i, u, log_far - ln_X) - in_row(plane, i, u, log_near - ln_X)
-    far = at_centre(centre, log_far) + off_centre(plane, i, u, log_far)
-    return far - (at_centre(centre, log_near) + off_centre(plane, i, u, log_near))
+    far = at_centre(centre, log_far) + (in_row(plane, i, u, log_far) - in_row(plane, 0, 0.0, log_far))
+    return far - (at_centre(centre, log_near) + (in_row(plane, i, u, log_near) - in_row(plane, 0, 0.0, log_near)))
 
 
 @entry

@@ -5,7 +5,7 @@ import math
 from contact.core import kernel
 from contact.kernels.normal.between_panels import IN_LINE, add_others, assemble_others
 from contact.kernels.normal.elimination import eliminate
-from contact.kernels.normal.influence import N_X, at_centre, column, in_row, logarithm, off_centre, off_line, row_at
+from contact.kernels.normal.influence import N_X, at_centre, column, in_row, logarithm, off_line, row_at
 from contact.kernels.normal.many_strips import displacement, fill_ln_X
 from contact.kernels.rows import Pair, Vector
 
@@ -37,11 +37,11 @@ def _fill_off_line(first, n, half, workspace, unit):
                 row[i] = factors[i] * scale * abs(at_centre(centre, right) + (low if i == k else -low))
             if X > IN_LINE:
                 place, share, ln_X = row_at(X, logarithm(X))
+                low, high = in_row(plane, place, share, left - ln_X), in_row(plane, place, share, right - ln_X)
                 if place < N_X:  # the table gives what differs from the centre line, as in `off_line`
-                    low, high = off_centre(plane, place, share, left), off_centre(plane, place, share, right)
+                    low, high = low - in_row(plane, 0, 0.0, left), high - in_row(plane, 0, 0.0, right)
                     row[i] += factors[i] * scale * (high - low if right > left else low - high)
                 else:
-                    low, high = in_row(plane, place, share, left - ln_X), in_row(plane, place, share, right - ln_X)
                     row[i] = factors[i] * scale * abs(high - low)
 
 
