@@ -44,18 +44,11 @@ def by_spin(method):
     return errors[~spin], errors[spin]
 
 
-def test_shen_hedrick_elkins_is_good_without_spin_and_bad_with_it():
-    """Thesis, ch. 5."""
-    without, with_spin = by_spin("shen_hedrick_elkins")
-    assert_held("without", without, (0.0170, 0.052, 0.128))
-    assert with_spin.mean() > 0.15
-    assert with_spin.max() > 0.8
-
-
 @pytest.mark.parametrize(("law", "without", "with_spin"), [
     ("linear_saturated", 0.0704, 0.240),
     ("vermeulen_johnson", 0.0321, 0.377),
     ("polach", 0.0273, 0.119),
+    ("shen_hedrick_elkins", 0.0170, 0.9),
 ])  # fmt: skip
 def test_creep_force_laws_on_ellipses(law, without, with_spin):
     for reached, errors in zip((without, with_spin), by_spin(law), strict=True):

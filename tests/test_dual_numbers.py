@@ -13,6 +13,7 @@ from contact.kernels.records import GIVEN
 from contact.pair import WheelRailPair
 from tests import dual
 from tests.dual import Dual, copied, plain, record, slope, value
+from tests.separations import two_lobes
 
 SEPARATION, CREEPAGE, LOAD = contact.Separation.hertzian(1.1, 0.8), contact.Creepage(1e-3, 5e-4, 0.2), 80e3
 NORMAL, TANGENTIAL = (dict(of) for of in (contact.methods().batched.normal, contact.methods().batched.tangential))
@@ -33,10 +34,17 @@ def solver_of(normal: str, tangential: str) -> contact.Solver:
     return made
 
 
-@pytest.mark.parametrize("tangential", TANGENTIAL)
-def test_columns_of_creepage_and_friction(tangential):
+@pytest.mark.parametrize(
+    ("tangential", "separation"),
+    [
+        *((name, SEPARATION) for name in TANGENTIAL),
+        *(("fastrip_mapped", two_lobes(2e-6, spacing)) for spacing in (8e-3, 12e-3)),
+    ],
+)
+def test_columns_of_creepage_and_friction(tangential, separation):
+    """Two lobes and two patches pull each other along."""
     solver = solver_of("strip_halfspace", tangential)
-    solution = solver.solve(SEPARATION, CREEPAGE, load=LOAD, derivatives=True)
+    solution = solver.solve(separation, CREEPAGE, load=LOAD, derivatives=True)
     assert solution.jacobian is not None
     for column, member in ((0, "vx"), (1, "vy"), (2, "phi"), (4, "mu")):
         own, case, result = (
@@ -78,19 +86,27 @@ def test_columns_of_approach_and_load(normal):
     assert scaled(loaded.jacobian.values[:, 3] - by_load, by_load) < 3e-5
 
 
-#: Tread, and flange root under yaw.
-@pytest.mark.parametrize(("side", "y", "yaw"), [("right", 3e-3, 2e-3), ("left", -6.2e-3, -8e-3)])
-@pytest.mark.parametrize("normal", ["analyn", "hertz", "kik_piotrowski", "linder", "semi_winkler", "strip_halfspace"])
-def test_all_columns_of_a_pair(normal, side, y, yaw):
+NORMALS = ("analyn", "hertz", "kik_piotrowski", "linder", "semi_winkler", "strip_halfspace")
+RAIL, TWO = profile.rail_60e1(inclination=1 / 40), profile.rail_60e1(inclination=1 / 20)
+#: Tread, and flange root under yaw, and two patches.
+PLACES = [
+    *((normal, {}, 3e-3, 2e-3) for normal in NORMALS),
+    *((normal, {"side": "left"}, -6.2e-3, -8e-3) for normal in NORMALS),
+    ("analyn", {"rail": TWO, "combine_distance": 1e-3, "combine_angle": 0.01}, 6e-3, 2e-3),
+]
+
+
+@pytest.mark.parametrize(("normal", "options", "y", "yaw"), PLACES)
+def test_all_columns_of_a_pair(normal, options, y, yaw):
     """The whole kernel runs on dual numbers: search, frames, creepages, strips and tractions."""
-    profiles = profile.s1002(), profile.rail_60e1(inclination=1 / 40)
-    pair = WheelRailPair(Pair(*profiles, side=side), normal=normal, n_strips=10, n_elements=10)
+    pair = WheelRailPair(Pair(profile.s1002(), **{"rail": RAIL, **options}), normal=normal, n_strips=10, n_elements=10)
     pair.arrays.case["tolerance"] = 1e-11
     pose, velocity = Pose(y=y, yaw=yaw, roll=1e-3), Velocity(20.0, y=0.01, yaw=3e-3, spin=-20.01 / 0.46)
     pose = dataclasses.replace(pose, z=pair.solve(pose, velocity, load=LOAD).z)
     pair.forget()
     found = pair.solve(pose, velocity, derivatives=True)
     assert found.jacobian is not None
+    assert len(found.contacts) == 1 + ("rail" in options)
     for column, member in enumerate(GIVEN.names or ()):
         arrays, given = copied(pair.arrays), record(pair.pair.given(pose, velocity, None))
         arrays.memory[:] = 0.0

@@ -297,8 +297,6 @@ REFUSED: list[tuple[Callable[[], Any], str]] = [
     (lambda: Pair(RAIL, RAIL), "wheel = .* is not a profile of a wheel"),
     (lambda: Pair(WHEEL, WHEEL), "rail = .* is not a profile of a rail"),
     (lambda: Pair(WHEEL, RAIL, side="up"), "side = 'up'"),
-    (lambda: Pair(WHEEL, RAIL, most_patches=2.7), "most_patches = 2.7 is not an integer"),
-    (lambda: Pair(WHEEL, RAIL, most_patches=5), "most_patches = 5 is not an integer in the allowed range"),
     (lambda: Pair(WHEEL, RAIL, samples=3), "samples = 3"),
     (lambda: Pair(WHEEL, RAIL, samples=[0, 1, 1, 2, 3]), "increasing"),
     (lambda: Pair(WHEEL, RAIL, samples="many"), "samples = 'many'"),

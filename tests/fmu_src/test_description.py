@@ -92,10 +92,10 @@ def test_it_names_authors_licence_and_version(xml):
     assert contact.__version__ == version("wheelrail-contact")
 
 
-def test_every_output_is_a_real_and_every_choice_is_possible_by_number(table):
+def test_every_input_and_output_is_a_real_and_every_choice_is_possible_by_number(table):
     """CasADi and CoFMUPy read every output as a Real, libcosim knows no Enumerations."""
     for row in table.rows:
-        assert row.causality is not Causality.OUTPUT or row.kind is Kind.REAL, row.name
+        assert row.causality not in (Causality.INPUT, Causality.OUTPUT) or row.kind is Kind.REAL, row.name
         if row.kind is Kind.ENUMERATION and row.is_given:
             twin = table.row[f"{row.name}_integer"]
             assert (twin.start, twin.maximum, twin.kind) == (0, len(row.enumeration.items), Kind.INTEGER)

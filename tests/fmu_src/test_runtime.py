@@ -1,6 +1,5 @@
 """What an FMU for hosts with Python asks the installed package: which library has the functions of the native FMUs."""
 
-import ctypes
 import os
 from pathlib import Path
 
@@ -25,17 +24,6 @@ def folder(tmp_path):
     (made / DECLARED).write_text(declared("contact", OPTIONS, GUID))
     (made / NAME).write_bytes(content(COMPONENT, GUID))
     return made
-
-
-def test_an_fmu_of_this_package_gets_a_library_with_the_functions_of_fmi(folder):
-    found = library(os.fsencode(folder))
-    assert ctypes.CDLL(os.fsdecode(found)).fmi2DoStep
-
-
-def test_an_fmu_of_another_version_is_refused_by_name(folder):
-    (folder / NAME).write_bytes(content(COMPONENT, "{another}"))
-    said = library(os.fsencode(folder)).decode()
-    assert said.startswith("!this FMU EllipticContact was built with another version of wheelrail-contact than")
 
 
 @pytest.mark.parametrize("text", ["", "nonsense(", "(1, 2)", "('nobody', {}, 'x')", None])

@@ -59,12 +59,6 @@ def test_names_make_buses(roots):
     assert {"pose", "velocity", "force", "moment", "patch"} <= groups
 
 
-def test_ports_are_doubles(roots):
-    for variable in variables(roots):
-        if variable.get("causality") in ("input", "output"):
-            assert variable[0].tag == "Real", variable.get("name")
-
-
 def test_parameters_of_the_mask_have_a_start(roots):
     """It is the default of the edit field or of the list. Integers fit 32 bits, and there are no Booleans and no texts."""
     for variable in variables(roots):

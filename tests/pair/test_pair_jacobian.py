@@ -77,13 +77,6 @@ def rolling(pair, pose):
     )
 
 
-def test_two_patches_add_up():
-    pair = made(inclination=1 / 20, combine_distance=1e-3, combine_angle=0.01)
-    given = rolling(pair, Pose(y=6.0e-3, yaw=2e-3))
-    assert len(pair.solve(**given).contacts) == 2
-    compare(pair, given, {"friction": 0.3}, [("pose.y", 1e-8), ("pose.z", 1e-8), ("velocity.yaw", 1e-7)], 1e-2)
-
-
 @pytest.mark.parametrize("options", [{"penetration": 1e-4}, {"load": LOAD}, {"vertical": LOAD}])
 def test_the_height_follows_its_condition(right, options):
     (name,) = options

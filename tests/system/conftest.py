@@ -3,7 +3,7 @@
 import os
 import re
 import shutil
-from functools import cache, partial
+from functools import cache
 from pathlib import Path
 
 import fmpy
@@ -179,21 +179,8 @@ def windows_fmi3(native_fmi3_folder, tmp_path_factory, wine):
     return Host("x86_64-windows", tmp_path_factory.mktemp("windows"), native_fmi3_folder)
 
 
-@pytest.fixture(scope="session", params=["python", "native"])
-def pair_file(request) -> Path:
-    """Return the file of WheelRailPair in each packaging."""
-    folder = request.getfixturevalue("fmus") if request.param == "python" else request.getfixturevalue("native").parent
-    return folder / f"{PAIR}.fmu"
-
-
 @pytest.fixture
-def open_pair(pair_file, open_fmu, native_pair):
-    """Return a function that instantiates WheelRailPair in each packaging."""
-    return native_pair if pair_file.parent.name == "native" else partial(open_fmu, PAIR)
-
-
-@pytest.fixture
-def native_pair(native, unzipped, freed):
+def open_pair(native, unzipped, freed):
     """Return a function that instantiates the native WheelRailPair, or that of another file."""
     file = native.with_name(f"{PAIR}.fmu")
     return lambda kind="CoSimulation", path=file: freed(Instance(unzipped(path), kind=kind))
@@ -205,8 +192,7 @@ def open_fmu(fmus, unzipped, freed):
     return lambda name, path=None: freed(Instance(unzipped(path or fmus / f"{name}.fmu")))
 
 
-@pytest.fixture(params=["python", "native"])
-def opened(request, fmus, native, unzipped, freed):
-    """Return a function that instantiates an FMU by name in each packaging."""
-    folder = fmus if request.param == "python" else native.parent
-    return lambda name: freed(Instance(unzipped(folder / f"{name}.fmu")))
+@pytest.fixture
+def opened(native, unzipped, freed):
+    """Return a function that instantiates a native FMU by name."""
+    return lambda name: freed(Instance(unzipped(native.with_name(f"{name}.fmu"))))

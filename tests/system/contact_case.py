@@ -1,4 +1,4 @@
-"""A contact case for the tests of both packagings."""
+"""A contact case for tests of FMUs."""
 
 import numpy as np
 

@@ -1,4 +1,4 @@
-"""Motions of a wheelset for the tests of `WheelRailPair` in both packagings, and the solver's results for them."""
+"""Motions of a wheelset for the tests of `WheelRailPair`, and the solver's results for them."""
 
 import math
 

@@ -1,4 +1,4 @@
-"""Random contacts for all packagings, with the solver's own results."""
+"""Random contacts, with the solver's own results."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""FMUs tell what Python warns of: values that no wheel on a rail has, once for each instance and rule, in both packagings."""
+"""FMUs tell what Python warns of: values that no wheel on a rail has, once for each instance and rule."""
 
 import pytest
 from fmu_instance import WARNING, Instance

@@ -1,4 +1,4 @@
-"""What hosts give that know little of the model: zeros, noise, and anything where it is not used, in both packagings."""
+"""What hosts give that know little of the model: zeros, noise, and anything where it is not used."""
 
 import math
 

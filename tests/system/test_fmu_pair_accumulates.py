@@ -1,4 +1,4 @@
-"""Damage that the FMU `WheelRailPair` accumulates in bins over both profiles, in both packagings."""
+"""Damage that the FMU `WheelRailPair` accumulates in bins over both profiles."""
 
 import numpy as np
 import pytest

@@ -1,4 +1,4 @@
-"""The FMU `WheelRailPair` in both packagings, through the C interface of FMI."""
+"""The FMU `WheelRailPair` through the C interface of FMI."""
 
 import math
 import shutil
@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 from fmpy.fmi1 import FMICallException
 from fmu_instance import Instance
-from pair_case import MOTION, NAME, R0, compare, expected, solved, trajectory, warm
+from pair_case import MOTION, NAME, R0, compare, expected, solved
 from thesis_case import THESIS
 
 import contact
@@ -22,10 +22,9 @@ from contact.pair import ElasticRail, WheelRailPair
 ROOT = Path(__file__).parents[2]
 
 
-def test_equals_the_solver_on_random_cases(open_pair, request):
+def test_equals_the_solver_on_random_cases(open_pair):
     fmu = open_pair()
-    cases = 300 if "native" in request.node.name else 30
-    statuses = {s.status for seed in range(cases) if (s := compare(fmu, seed))}
+    statuses = {s.status for seed in range(300) if (s := compare(fmu, seed))}
     assert statuses >= {contact.Status.OK, contact.Status.NO_CONTACT, contact.Status.SATURATED}
 
 
@@ -79,9 +78,9 @@ def exchanged(file: Path, folder: Path) -> tuple[Path, list[profile.Profile]]:
     return path, read
 
 
-def test_takes_a_users_own_profiles(pair_file, open_pair, tmp_path):
+def test_takes_a_users_own_profiles(native, open_pair, tmp_path):
     """They are replaced in the finished file, without a compiler."""
-    path, profiles = exchanged(pair_file, tmp_path)
+    path, profiles = exchanged(native.with_name(f"{NAME}.fmu"), tmp_path)
     fmu = open_pair(path=path)
     values = {"pose.y": 1e-3, "velocity.x": 20.0, "velocity.spin": -20.0 / 0.46}
     fmu.update({**values, "track.gauge_point": 1e-3, "rail.inclination": 0.0})
@@ -92,8 +91,8 @@ def test_takes_a_users_own_profiles(pair_file, open_pair, tmp_path):
 
 
 @pytest.mark.parametrize("damage", ["a bit", "the end", "all"])
-def test_a_damaged_profile_is_refused_when_instantiated(pair_file, tmp_path, damage):
-    folder = Path(fmpy.extract(str(pair_file), str(tmp_path)))
+def test_a_damaged_profile_is_refused_when_instantiated(native, tmp_path, damage):
+    folder = Path(fmpy.extract(str(native.with_name(f"{NAME}.fmu")), str(tmp_path)))
     resource = folder / "resources" / "rail.profile"
     content = bytearray(resource.read_bytes())
     content[2000] ^= damage == "a bit"
@@ -106,17 +105,9 @@ def test_a_damaged_profile_is_refused_when_instantiated(pair_file, tmp_path, dam
     assert "resource rail.profile" in log[0][1]
 
 
-def test_both_packagings_go_on_alike_from_step_to_step(native_pair, open_fmu):
-    """This uses interacting strips, which start from the last step."""
-    one, other = native_pair(), open_fmu(NAME)
-    for fmu in (one, other):
-        warm(fmu).initialize()
-    assert trajectory(one, 0) == trajectory(other, 0)
-
-
-def test_a_state_of_other_profiles_is_refused(native, native_pair, tmp_path):
+def test_a_state_of_other_profiles_is_refused(native, open_pair, tmp_path):
     path, _ = exchanged(native.with_name(f"{NAME}.fmu"), tmp_path)
-    one, other = native_pair(), native_pair(path=path)
+    one, other = open_pair(), open_pair(path=path)
     state = one.fmu.getFMUstate()
     copy = other.fmu.deSerializeFMUstate(one.fmu.serializeFMUstate(state))
     with pytest.raises(FMICallException):

@@ -1,4 +1,4 @@
-"""The FMU `Wheelset` in both packagings through the C interface of FMI: a vehicle that asks two pairs."""
+"""The FMU `Wheelset` through the C interface of FMI: a vehicle that asks two pairs."""
 
 import numpy as np
 from fmu_instance import DISCARD, refused

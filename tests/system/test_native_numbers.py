@@ -1,12 +1,12 @@
-"""Numbers of `WheelRailContact` in both packagings compared with `contact.solve`."""
+"""Numbers of `WheelRailContact` compared with `contact.solve`."""
 
 import ctypes
 
 import numpy as np
 import pytest
-from contact_case import CREEPAGES, NAME, posed, separation
+from contact_case import CREEPAGES, posed, separation
 from fmu_instance import goes_on
-from random_cases import METHODS, OUTPUTS, POINTS, STEP, Case, random_case
+from random_cases import METHODS, OUTPUTS, POINTS, Case, random_case
 
 import contact
 from contact import Status
@@ -27,10 +27,10 @@ def check(cases: list[Case], rows: np.ndarray, most: float = 1e-12) -> None:
     assert not wrong, wrong
 
 
-def test_the_cases_have_everything_in_them(cases, open_fmu):
+def test_the_cases_have_everything_in_them(cases, open_native):
     stiffness = {f"creep_stiffness[{i},{j}]" for i in (1, 2, 3) for j in (1, 2, 3)}
     twins = {f"{name}_real" for name in ("patch.count", "status")}  # of test_fmu_inputs.py
-    variables = open_fmu(NAME).variables
+    variables = open_native().variables
     outputs = {name for name, v in variables.items() if v.causality == "output"}
     assert {*variables} >= {*OUTPUTS}
     assert outputs == {*OUTPUTS} - {"patch.count", "status"} | twins | stiffness
@@ -52,17 +52,6 @@ def test_native_packaging_equals_the_solver(host, cases):
 def test_windows_library_equals_the_solver(windows, cases):
     """It has the exp, log and pow of glibc. The table of factors magnifies the last digit of Windows' sin and cos."""
     check(cases, windows.solve((case.values for case in cases), OUTPUTS), 1e-10)
-
-
-def test_the_packaging_for_python_gives_the_bits_of_the_native_one(open_native, open_fmu, cases):
-    """It passes calls on to the same functions; outputs that are computed when they are read are among them."""
-    one, other = open_native(), open_fmu(NAME)
-    for case in cases[:30]:
-        for fmu in (one, other):
-            fmu.fmu.reset()
-            fmu.update(case.values)
-            fmu.initialize().step(h=STEP)
-        assert other.all("output", "input", "parameter") == one.all("output", "input", "parameter"), case.seed
 
 
 def test_strips_that_interact_go_on_from_the_last_step(open_native):

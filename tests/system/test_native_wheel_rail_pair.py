@@ -20,14 +20,14 @@ WRENCH = ("force.x", "force.y", "force.z", "moment.x", "moment.y", "moment.z")
         ("friction.coefficient", 1e-6),
     ],
 )
-def test_directional_derivatives_are_those_of_the_outputs(native_pair, known, h):
+def test_directional_derivatives_are_those_of_the_outputs(open_pair, known, h):
     """Each component of the wrench is compared with central differences of other steps.
 
     Under a load the height follows from an iteration, whose tolerance is in the quotients: up to 6e-4 was measured. The
     columns of the pose are those of the height that the method itself finds, the outputs those of ANALYN's height. The
     quotient of the small vertical force changes by 3 % between steps of 2e-8 and 1e-6, .002 of the largest slope.
     """
-    fmu = native_pair("ModelExchange")
+    fmu = open_pair("ModelExchange")
     fmu.update({**MOTION, "pose.yaw": 1e-3})
     fmu.initialize()
     wanted = quotient(fmu, WRENCH, {known: 1.0}, h)

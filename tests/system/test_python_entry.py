@@ -1,15 +1,17 @@
 """The library of an FMU for hosts with Python: it finds the package that is installed, or says what is missing."""
 
 import ctypes
+import math
 import os
 import subprocess
 import sys
 from pathlib import Path
 
 import fmpy
-import numpy as np
+import pair_case
 import pytest
-from fmu_instance import ERROR, Instance, refused
+from contact_case import CREEPAGES
+from fmu_instance import DISCARD, ERROR, Instance, goes_on
 from script_host import Script
 
 FOLDERS = [
@@ -107,14 +109,69 @@ def test_every_pointer_may_be_null(fmu):
     fmu.step()
 
 
-@pytest.mark.parametrize("packaging", ["python", "native"])
-def test_a_time_in_single_precision_runs(fmus, native, tmp_path, packaging):
-    path = (fmus if packaging == "python" else native.parent) / "EllipticContact.fmu"
-    instance = Instance(Path(fmpy.extract(str(path), str(tmp_path))))
-    instance.fmu.setupExperiment(startTime=100.0, stopTime=100.1)
-    instance.fmu.enterInitializationMode(), instance.fmu.exitInitializationMode()
-    for i in range(100):
-        instance.fmu.doStep(float(np.float32(100.0 + 1e-3 * i)), 1e-3)
-    refused(lambda: instance.fmu.doStep(float(np.float32(100.0 + 1e-3 * 99)), 1e-3), ERROR)
-    refused(lambda: instance.fmu.doStep(100.1 + 6e-5, 1e-3), ERROR)
-    instance.free()
+#: FMU → inputs and parameters of a run, and one that ends it. The strips of the pair start from the last step.
+RUNS = {
+    "WheelRailContact": ({**CREEPAGES, "method.normal": 2, "friction.law": 3}, ("creepage.spin", math.nan)),
+    "EllipticContact": (CREEPAGES, ("geometry.A0", -1.0)),
+    "WheelRailPair": (pair_case.MOTION, ("pose.yaw", 0.5)),
+    "Wheelset": ({"initial.y[1]": 4e-3, "wheel[1].force.y": 1e3}, ("wheel[1].force.y", math.inf)),
+}
+
+
+def conversation(fmu: Instance, other: Instance, name: str) -> list:
+    """Return what an instance answers to every function of FMI 2.0, with its log. Its state goes on in the other one."""
+    library, c, said = (
+        fmu.fmu.dll,
+        ctypes.c_void_p(fmu.fmu.component),
+        [fmu.fmu.getVersion(), fmu.fmu.getTypesPlatform()],
+    )
+    values, (wrong, bad) = RUNS[name]
+    output, known = (
+        ctypes.c_uint(next(v.valueReference for v in fmu.variables.values() if v.causality == of and v.type == "Real"))
+        for of in ("output", "input")
+    )
+    one, order, seed = ctypes.c_size_t(1), ctypes.c_int(1), ctypes.c_double(1.0)
+
+    def call(function: str, *words) -> None:
+        """Call with one more argument, into which the function may write a number or the address of a text."""
+        value = (ctypes.c_char_p if function == "GetStringStatus" else ctypes.c_double)()
+        status = library[f"fmi2{function}"](c, *words, ctypes.byref(value))
+        said.append((function, status, value.value))
+
+    def ask_for_status() -> None:
+        for kind in range(4):
+            for of in ("", "Real", "Integer", "Boolean", "String"):
+                call(f"Get{of}Status", kind)
+
+    def step(time: float, h: float = 1e-3) -> int:
+        return library["fmi2DoStep"](c, ctypes.c_double(time), ctypes.c_double(h), 1)
+
+    fmu.update(values)
+    fmu.initialize(stop_time=1.0).step()
+    everything = ("input", "output", "parameter")
+    said.append(goes_on(fmu, other, lambda it: [(it.step(1e-3 * k), it.all(*everything)) for k in (1, 2)]))
+    call("GetDirectionalDerivative", ctypes.byref(output), one, ctypes.byref(known), one, ctypes.byref(seed))
+    for of in ("Real", "Integer", "Boolean", "String"):
+        call(f"Get{of}", ctypes.byref(output), one)
+        call(f"Set{of}", ctypes.byref(output), one)
+    call("SetRealInputDerivatives", ctypes.byref(known), one, ctypes.byref(order))
+    call("GetRealOutputDerivatives", ctypes.byref(output), one, ctypes.byref(order))
+    said += [library["fmi2CancelStep"](c), step(2.0), step(3e-3, 2.0)]
+    ask_for_status()
+    fmu.update({wrong: bad})
+    assert step(3e-3) == DISCARD
+    ask_for_status()
+    library["fmi2SetDebugLogging"](c, 0, ctypes.c_size_t(0), None)
+    told = len(fmu.log)
+    said.append(step(7.0))
+    assert len(fmu.log) == told
+    library["fmi2SetDebugLogging"](c, 1, ctypes.c_size_t(0), None)
+    said += [library["fmi2Terminate"](c), step(3e-3), library["fmi2Reset"](c), fmu.initialize().all(*everything)]
+    return [*said, *fmu.log]
+
+
+@pytest.mark.parametrize("name", RUNS)
+def test_every_function_answers_as_that_of_the_native_fmu(opened, open_fmu, name):
+    """So what tests find of a native FMU holds for that of hosts with Python."""
+    native = conversation(opened(name), opened(name), name)
+    assert conversation(open_fmu(name), open_fmu(name), name) == native

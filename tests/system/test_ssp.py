@@ -23,12 +23,10 @@ N_ANSWERS = 6  # that a pair's FMU has
 STEPS = 60
 
 
-@pytest.fixture(params=["python", "native"])
-def system(request) -> Path:
+@pytest.fixture
+def system(native) -> Path:
     """Return the file that is built in the folder of the FMUs."""
-    python = request.param == "python"
-    folder = request.getfixturevalue("fmus") if python else request.getfixturevalue("native").parent
-    return folder / "coupled.ssp"
+    return native.with_name("coupled.ssp")
 
 
 @pytest.fixture(params=["coupled", "coupled_vehicle"])

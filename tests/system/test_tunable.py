@@ -1,11 +1,8 @@
 """Tunable parameters: friction and material may change during a run, between steps or in event mode."""
 
-from functools import partial
-
 import fmpy
 import numpy as np
 import pytest
-from contact_case import NAME
 from fmu_instance import ERROR, goes_on, refused
 from thesis_case import THESIS
 
@@ -20,11 +17,9 @@ TUNED = {
 GROUPS = {"friction", "material", "thermal"}
 
 
-@pytest.fixture(params=["fmi2", "fmi3", "python"])
+@pytest.fixture(params=["fmi2", "fmi3"])
 def open_contact(request):
-    """Return a function that instantiates the FMU in each packaging and version of FMI."""
-    if request.param == "python":
-        return partial(request.getfixturevalue("open_fmu"), NAME)
+    """Return a function that instantiates the FMU in each version of FMI."""
     return request.getfixturevalue("open_native" if request.param == "fmi2" else "open_native_fmi3")
 
 
@@ -33,8 +28,8 @@ def results(fmu) -> dict[str, np.ndarray]:
     return {name: value for name, value in fmu.all("output").items() if not name.startswith("total.")}
 
 
-def test_the_descriptions_name_friction_and_material(native, native_fmi3, fmus):
-    for path in (native, native_fmi3, fmus / f"{NAME}.fmu", native.with_name("WheelRailPair.fmu")):
+def test_the_descriptions_name_friction_and_material(native, native_fmi3):
+    for path in (native, native_fmi3, native.with_name("WheelRailPair.fmu")):
         variables = fmpy.read_model_description(str(path)).modelVariables
         tunable = {v.name for v in variables if v.variability == "tunable"}
         own = {v.name for v in variables if v.causality == "parameter" and v.name.split(".")[0] in GROUPS}

@@ -1,6 +1,5 @@
 """Validation sets of FMUs, in the form of the FMI Cross-Check: written, read back by fmpy, run by fmpy and by a C host."""
 
-import shutil
 from pathlib import Path
 
 import fmpy
@@ -24,19 +23,19 @@ NAMES = ("WheelRailPair", "EllipticContact")
 
 
 @pytest.fixture(scope="module")
-def of_python(fmus, tmp_path_factory):
-    """Return the folder with the sets of the FMUs for hosts with Python."""
+def sets(native, tmp_path_factory):
+    """Return the folder with the sets of native FMUs for co-simulation; that for model exchange is beside it."""
     folder = tmp_path_factory.mktemp("sets")
     for name in NAMES:
-        validation.write(fmus / f"{name}.fmu", MODELS[name].table, folder, exchange=False, force=False)
-    return folder / "python" / "fmi2" / "cs"
+        validation.write(native.with_name(f"{name}.fmu"), MODELS[name].table, folder, exchange=True, force=False)
+    return folder / "native" / "fmi2" / "cs"
 
 
 @pytest.mark.parametrize("name", NAMES)
-def test_fmpy_reads_a_set_by_the_rules_of_the_cross_check(fmus, of_python, name):
+def test_fmpy_reads_a_set_by_the_rules_of_the_cross_check(native, sets, name):
     """The checks of fmpy.cross_check: valid options, all inputs, all outputs, nothing else."""
-    place = of_python / name
-    description = fmpy.read_model_description(str(fmus / f"{name}.fmu"))
+    place = sets / name
+    description = fmpy.read_model_description(str(native.with_name(f"{name}.fmu")))
     read = description.modelVariables
     real = [v for v in read if v.type == "Real" and not v.name.startswith("accumulated") and "," not in v.name]
     options = read_ref_opt_file(place / f"{name}_ref.opt")
@@ -48,8 +47,8 @@ def test_fmpy_reads_a_set_by_the_rules_of_the_cross_check(fmus, of_python, name)
     assert "fmu-check" in (place / "README.md").read_text()
 
 
-def test_a_run_visits_tread_flange_two_patches_lift_off_and_full_slip(of_python):
-    reference = read_csv(of_python / "WheelRailPair" / "WheelRailPair_ref.csv")
+def test_a_run_visits_tread_flange_two_patches_lift_off_and_full_slip(sets):
+    reference = read_csv(sets / "WheelRailPair" / "WheelRailPair_ref.csv")
     assert {0.0, 1.0, 2.0} <= set(reference["patches.count_real"])
     assert {1.0, 2.0, 3.0} <= set(reference["status_real"])  # OK, no contact, saturated
     assert np.max(np.abs(reference["patch[1].angle"])) > 0.5
@@ -70,32 +69,26 @@ def columns_of(rows) -> dict:
         ("force.x", lambda x: x + 10.0, "without contact has a force"),
     ],
 )
-def test_an_answer_against_physics_is_not_written(of_python, name, change, message):
-    answer = columns_of(read_csv(of_python / "WheelRailPair" / "WheelRailPair_ref.csv"))
+def test_an_answer_against_physics_is_not_written(sets, name, change, message):
+    answer = columns_of(read_csv(sets / "WheelRailPair" / "WheelRailPair_ref.csv"))
     answer[name] = change(answer[name])
     assert any(message in one for one in validation.contradictions(MODELS["WheelRailPair"].table, answer))
 
 
-def test_a_set_that_exists_is_overwritten_only_by_force(fmus, of_python, tmp_path):
-    place = tmp_path / "python" / "fmi2" / "cs" / "EllipticContact"
-    shutil.copytree(of_python / "EllipticContact", place)
+def test_the_other_packaging_has_an_equal_set_which_is_overwritten_only_by_force(fmus, sets, tmp_path):
     given = fmus / "EllipticContact.fmu", MODELS["EllipticContact"].table, tmp_path
+    (place,) = validation.write(*given, exchange=False, force=False)
+    assert place == tmp_path / "python" / "fmi2" / "cs" / "EllipticContact"
+    assert compare(place / "EllipticContact_ref.csv", sets / "EllipticContact").agrees
     with pytest.raises(ContactError, match="exists; --force overwrites it"):
         validation.write(*given, exchange=False, force=False)
     validation.write(*given, exchange=False, force=True)
 
 
-@pytest.mark.parametrize("short", ["cs", "me"])
 @pytest.mark.parametrize("name", NAMES)
-def test_the_native_fmu_run_by_fmpy_agrees_with_its_set_and_with_the_other_packaging(
-    native, of_python, tmp_path, name, short
-):
-    made = validation.write(native.with_name(f"{name}.fmu"), MODELS[name].table, tmp_path, exchange=True, force=False)
-    (place,) = [one for one in made if one.parent.name == short]
-    assert compare(place / f"{name}_ref.csv", place).agrees
-    if short == "cs":
-        found = compare(place / f"{name}_ref.csv", of_python / name)
-        assert found.agrees, found.lines
+def test_model_exchange_has_the_answers_of_co_simulation(sets, name):
+    found = compare(sets.with_name("me") / name / f"{name}_ref.csv", sets / name)
+    assert found.agrees, found.lines
 
 
 def test_fmi_3_has_its_set(native, tmp_path):
@@ -104,10 +97,9 @@ def test_fmi_3_has_its_set(native, tmp_path):
     assert [(one.parents[1].name, one.parent.name) for one in made] == [("fmi3", "cs"), ("fmi3", "me")]
 
 
-def test_a_c_host_gives_the_reference(native, unzipped, tmp_path):
+def test_a_c_host_gives_the_reference(native, sets, unzipped, tmp_path):
     """The host of `reference/native/host/script.c` sets all inputs, steps and prints all outputs."""
-    path = native.with_name("EllipticContact.fmu")
-    (place, _) = validation.write(path, MODELS["EllipticContact"].table, tmp_path, exchange=True, force=False)
+    path, place = native.with_name("EllipticContact.fmu"), sets / "EllipticContact"
     inputs, reference = (read_csv(place / f"EllipticContact_{end}.csv") for end in ("in", "ref"))
     references = {v.name: v.valueReference for v in fmpy.read_model_description(str(path)).modelVariables}
     outputs = reference.dtype.names[1:]
@@ -186,8 +178,8 @@ def test_in_fmi_3_a_vehicle_on_given_forces_is_driven_by_arrays(native_vehicles,
         ("patch[2].n", lambda x: 1.1 * x),
     ],
 )
-def test_an_answer_that_is_not_that_of_mirrored_inputs_is_not_written(of_python, name, change):
-    answer = columns_of(read_csv(of_python / "WheelRailPair" / "WheelRailPair_ref.csv"))
+def test_an_answer_that_is_not_that_of_mirrored_inputs_is_not_written(sets, name, change):
+    answer = columns_of(read_csv(sets / "WheelRailPair" / "WheelRailPair_ref.csv"))
     in_mirror = {one: mirror.factor(one) * values for one, values in answer.items()}
     assert mirror.unlike(answer, in_mirror, validation.tolerance) == []
     answer[name] = change(answer[name])
@@ -200,8 +192,8 @@ def test_what_turns_round_in_a_mirror():
     assert mirror.factor("creep_stiffness[1,3]") == -1.0 == -mirror.factor("creep_stiffness[2,3]")
 
 
-def test_matrices_are_compared_where_a_tool_writes_them(of_python, tmp_path):
-    place = of_python / "EllipticContact"
+def test_matrices_are_compared_where_a_tool_writes_them(sets, tmp_path):
+    place = sets / "EllipticContact"
     reference, arrays = (place / f"EllipticContact_{end}.csv" for end in ("ref", "arrays"))
     found = compare(reference, place)
     assert found.agrees

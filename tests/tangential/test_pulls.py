@@ -77,22 +77,3 @@ def test_the_pull_grows_from_nothing_as_an_ellipse_becomes_two_lobes():
     assert [answers[0].n_patches, answers[-1].n_patches] == [1, 2]
     forces = np.array([(s.Fx, s.Fy) for s in answers]) / (FRICTION * LOAD)
     assert np.hypot(*np.diff(forces, axis=0).T).max() < 0.006
-
-
-@pytest.mark.parametrize("separation", [dented(25e-6), apart(13e-3, 3.0)], ids=["two lobes", "two patches"])
-def test_derivatives_follow_the_pull(separation):
-    creepage, step = np.array([3e-4, -2e-4, 0.2]), np.array([1e-8, 1e-8, 1e-5])
-    slopes = contact.solve(
-        separation, contact.Creepage(*creepage), load=LOAD, friction=FRICTION, derivatives=True
-    ).jacobian.values[:2, :3]
-    for k in range(3):
-        more, less = (solved(separation, creepage + sign * step * (np.arange(3) == k)) for sign in (1, -1))
-        change = np.array([more.Fx - less.Fx, more.Fy - less.Fy]) / (2.0 * step[k])
-        assert change == pytest.approx(slopes[:, k], abs=0.01 * np.abs(slopes[:, k]).max())
-
-
-@pytest.mark.parametrize("separation", [dented(25e-6), apart(13e-3, 3.0)], ids=["two lobes", "two patches"])
-def test_a_mirror_image_has_mirrored_forces(separation):
-    mirrored = contact.Separation(-separation.y[::-1], separation.g[::-1], separation.A[::-1], separation.x_c[::-1])
-    one, other = solved(separation, (3e-4, 2e-4, 0.3)), solved(mirrored, (3e-4, -2e-4, -0.3))
-    assert (one.Fx, -one.Fy, -one.Mz) == pytest.approx((other.Fx, other.Fy, other.Mz), rel=1e-4, abs=1e-4 * LOAD)

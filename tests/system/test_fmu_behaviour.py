@@ -1,10 +1,11 @@
-"""What the FMUs do in the same way in both packagings: bad inputs, lift-off, states, reset."""
+"""What all FMUs do in the same way: bad inputs, lift-off, states, reset."""
 
 import math
 from collections.abc import Callable
 from functools import partial
 from typing import NamedTuple
 
+import numpy as np
 import pair_case
 import pytest
 import wheelset_case
@@ -46,8 +47,6 @@ def trajectory(fmu, start: int) -> list[dict[str, float]]:
 def kind(request, opened):
     """Return each of the FMUs as a `Kind`. The strips of the pair interact, so each step starts from the last one."""
     of_fmi_3 = request.param == "FMI 3.0"
-    if of_fmi_3 and request.node.callspec.params["opened"] == "python":
-        pytest.skip("FMUs for hosts with Python are of FMI 2.0")
     make = request.getfixturevalue("open_native_fmi3") if of_fmi_3 else partial(opened, request.param)
     if request.param == pair_case.NAME:
         return Kind(make, pair_case.warm, pair_case.trajectory, 4)
@@ -184,3 +183,13 @@ def test_a_step_is_not_done_twice(opened):
     fmu.step(1e-3 * (1.0 + 1e-12), 1e-3)
     assert fmu["total.energy"] == energy
     fmu.fmu.freeFMUstate(state)
+
+
+def test_a_time_in_single_precision_runs(opened):
+    fmu = opened("EllipticContact")
+    fmu.fmu.setupExperiment(startTime=100.0, stopTime=100.1)
+    fmu.fmu.enterInitializationMode(), fmu.fmu.exitInitializationMode()
+    for i in range(100):
+        fmu.step(float(np.float32(100.0 + 1e-3 * i)))
+    refused(lambda: fmu.step(float(np.float32(100.0 + 1e-3 * 99))), ERROR)
+    refused(lambda: fmu.step(100.1 + 6e-5), ERROR)
