@@ -28,7 +28,7 @@ from contact.kernels.resultants import (
 )
 from contact.kernels.root import advance
 from contact.kernels.root import begin as begin_root
-from contact.kernels.rows import Sep, Strip
+from contact.kernels.rows import Sep
 
 #: Search of the height for a load or a vertical force: most trials, shortest bracket [m], target and accepted residual over it.
 _MOST, _SHORTEST, _TOLERANCE, _ACCEPTABLE = 20, 1e-14, 1e-9, 1e-3
@@ -41,9 +41,9 @@ _ROUGH = 1e-3
 _ITERATED, _NOISE, _IDLE, _RESTLESS = 1e-5, 1e-4, 2, 5e-4
 #: Iterations up to which a solution is a start for the next trial. What takes more may have two solutions at one height.
 _QUICK = 8
-#: Most solutions for a load, each of which lays the patch anew; share of the force by which the height may move after the last
-#: one. Where lobes share a plane, that moves them against each other; one lobe by itself is laid alike.
-_MOST_LAID, _ONE_LOBE = 5, 3e-3
+#: Most solutions for a load, each of which lays the patch anew, and the change of the force up to which the height may move
+#: after the last one. A patch that is laid for another height carries a tenth of this too much or too little.
+_MOST_LAID, _LAID = 5, 3e-4
 #: Target and accepted residual on surfaces that change along the way, the second with friction. On the edge of a fresh flat the
 #: force is not smooth in z.
 _ROUGHER, _ACCEPTABLE_ROUGH = 1e-7, 1e-2
@@ -277,8 +277,8 @@ def _press_for_load(mode, force, touch, nodes, root, arrays):
                 return 0
             left *= reached / force
         motion.missed = abs(reached - force) / force
-        near = _ONE_LOBE if arrays.workspace.strips[Strip.PATCH, n_strips - 1] == 0.0 else _NOISE
-        if quick and not rough and abs(rise) * growth <= near and motion.missed <= _ITERATED:
+        if quick and not rough and abs(rise) * growth <= _LAID and motion.missed <= _ITERATED:
+            root.evaluations = k + 1
             return n_strips
         depth = root.x + rise + 1.5 * ((force / reached) ** (2.0 / 3.0) - 1.0) / growth
         if not root.first < depth < root.last:
