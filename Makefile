@@ -89,7 +89,6 @@ coupling: $(READY) ## write the largest stable steps of the coupling schemes to 
 	PYTHONPATH=. $(BIN)/python benchmarks/coupling.py --write docs/check/coupling.md
 
 bench: $(READY)  ## print the speed tables
-	PYTHONPATH=. $(BIN)/python benchmarks/speed.py
 	PYTHONPATH=. $(BIN)/python benchmarks/pose_times.py
 	PYTHONPATH=. $(BIN)/python benchmarks/vehicle_speed.py
 	PYTHONPATH=. $(BIN)/python benchmarks/fmu_speed.py

@@ -13,10 +13,10 @@ import time
 from collections import Counter
 from pathlib import Path
 
-from benchmarks.tables import read_options
+from benchmarks.tables import fill, read_options
 from contact import inp
 from contact.errors import ContactError
-from contact.inp.digits import digit_table, with_part
+from contact.inp.digits import digit_table
 
 #: Cases of a file that are run, at most: files without printed results show the time, and a few cases do for that.
 _MOST_UNCOMPARED = 50
@@ -103,11 +103,7 @@ def main() -> None:
             rows.append(row(path))
             print(rows[-1], end="", flush=True)
         parts["files"] = HEAD + "".join(rows)
-    if given.write is not None:
-        text = given.write.read_text(encoding="utf-8")
-        for name, part in parts.items():
-            text = with_part(text, name, part)
-        given.write.write_text(text, encoding="utf-8")
+    fill(given.write, parts)
 
 
 if __name__ == "__main__":

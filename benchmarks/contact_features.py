@@ -19,7 +19,7 @@ import contact
 import reference
 from benchmarks import bent_surface, feature_times, roller_polygon
 from benchmarks.patches_of_sets import BOTH, pair_of, parabolas
-from benchmarks.tables import read_options, summary, table
+from benchmarks.tables import fill, read_options, summary, table
 from contact.geometry.wheelset import Pose, Velocity
 from contact.halfspace import Gap
 from contact.pair import ElasticRail, RollerRig, WheelRailPair
@@ -214,37 +214,19 @@ PARTS: tuple[Callable[[Path], Iterator[Row]], ...] = (
     rollers,
     roller_polygon.errors,
 )
-TEXT = """# CONTACT's features
-
-`benchmarks/contact_features.py` writes this page. The reference is CONTACT 25.1 (rev 2707, Apache-2.0) with the same inputs.
-The table has absolute errors: their mean, the value that 95 % do not exceed, and the largest.
-
-{errors}
-## Time
-
-Process time in one thread on a shared machine, the least of several runs. The first rows are on one real patch at 0.2 mm.
-The last column is what CONTACT takes for that patch with given creepages alone, over our time: first its default solver
-(2.1 s), then GDsteady, taken as .46/3.9 of that ([half space](halfspace.md)).
-CONTACT's times with the features are not known to us.
-
-{elements}
-A pair on strips, default methods, over a series of poses .01 mm apart:
-
-{pairs}"""
 
 
 def main() -> None:
     arguments = read_options(__doc__, folder=None, write=Path)
     folder = arguments.folder and arguments.folder.resolve()
     rows = [row for part in PARTS if folder for row in part(folder)]
-    text = TEXT.format(
-        errors=table(["set and quantity", "values", "mean", "95 %", "largest", "unit"], rows),
-        elements=table(["task, 124 × 68 elements", "time [ms]", "CONTACT/ours"], list(feature_times.elements())),
-        pairs=table(["task", "time [ms]"], list(feature_times.pairs())),
-    )
-    print(text)
-    if arguments.write:
-        arguments.write.write_text(text)
+    parts = {
+        "elements": table(["task, 124 × 68 elements", "time [ms]", "CONTACT/ours"], list(feature_times.elements())),
+        "pairs": table(["task", "time [ms]"], list(feature_times.pairs())),
+    }
+    if folder:
+        parts["errors"] = table(["set and quantity", "values", "mean", "95 %", "largest", "unit"], rows)
+    fill(arguments.write, parts)
 
 
 if __name__ == "__main__":

@@ -58,7 +58,8 @@ def losses(h: float, scheme: Scheme) -> list[str]:
     return [NAMES[scheme], f"{1e3 * h:g}", f"{1e3 * error:.2g}", f"{100 * residual / dissipated:.2g}"]
 
 
-def report() -> str:
+def report() -> dict[str, str]:
+    """Return the parts of the page."""
     lateral, yaw, spin = modes(1.0)
     f22, f11 = (0.5e-6 * m.damping for m in (lateral, yaw))
     longer = lateral.mass / lateral.damping / (spin.mass / spin.damping)
@@ -68,40 +69,17 @@ def report() -> str:
     )
     runs: list[tuple[Scheme, float]] = [("gauss_seidel", h) for h in (4e-4, 2e-4, 1e-4)]
     runs += [("jacobi", h) for h in (5e-5, 2e-5)]
-    return f"""# Coupling
-
-The largest communication step in milliseconds at which a wheelset (S1002 on 60E1, `included/wheelset.toml`) and its two
-contacts are stable, by bisection, and the energy that the coupling loses. Written by `make coupling`. Gauss–Seidel: the
-contacts answer, then the vehicle moves. Jacobi: all step at the same time, so answers are one step late.
-
-## Forces held over a step
-
-A creep force that is held over a step h while it damps a mass m, m dv/dt = -c v with c = 2 f/V, gives v' = (1 - z) v
-by Gauss–Seidel and v'' = v' - z v by Jacobi, with z = c h/m. They grow for z > 2 and z > 1.
-
-Three motions of a wheelset are damped this way, with their effective masses at the contacts: lateral motion with
-m = {lateral.mass:.0f} kg, yaw with I/b² = {yaw.mass:.0f} kg, the axle's spin with I_s/r² = {spin.mass:.0f} kg. The slopes of
-the contact at 54.5 kN are f22 = {f22:.1f} MN (lateral) and f11 = {f11:.1f} MN (longitudinal). Each motion alone, on the true
+    motions = f"""Three motions of a wheelset are damped this way, with their effective masses at the contacts: lateral motion
+with m = {lateral.mass:.0f} kg, yaw with I/b² = {yaw.mass:.0f} kg, the axle's spin with I_s/r² = {spin.mass:.0f} kg. The slopes
+of the contact at 54.5 kN are f22 = {f22:.1f} MN (lateral) and f11 = {f11:.1f} MN (longitudinal). Each motion alone, on the true
 contacts, with an explicit integration:
 
 {explicit()}
 **The spin decides.** An estimate from the lateral motion alone is {longer:.1f} times too long for an axle that turns
 freely. This holds for every vehicle of your own that takes forces over a step.
-
-## The vehicle of this package
-
-It answers a change of slip within the step ([vehicle](../understand/vehicle.md), 5), so its spin does not limit the step.
-Normal forces are elastic: a wheelset bounces with 200 Hz on its contacts, and answers that are one step late drive this.
-Largest step at which normal forces stay within half the static load, over 180 steps from 1 mm aside:
-
-{whole}
-## Losses in hunting
-
-The wheelset runs at {HUNTING:g} m/s for {SECONDS:g} s and starts at 5 mm. The error is the largest difference of the lateral
-displacement from Gauss–Seidel at 0.025 ms. The residual is the largest energy that left wheelset and rails and was neither
-dissipated by creep nor stored, in per cent of the dissipated energy.
-
-{table(["scheme", "h, ms", "error, mm", "residual, %"], [losses(h, s) for s, h in runs])}"""
+"""
+    lost = table(["scheme", "h, ms", "error, mm", "residual, %"], [losses(h, s) for s, h in runs])
+    return {"motions": motions, "whole": whole, "losses": lost}
 
 
 if __name__ == "__main__":

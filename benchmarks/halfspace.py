@@ -136,7 +136,8 @@ def _force(aspect: float, creepage: tuple[float, float, float], n: int, offset: 
     return resultants(x, y, p, found, 5e-3)[:2]
 
 
-def report() -> str:
+def report() -> dict[str, str]:
+    """Return all tables as Markdown."""
     errors, steps, failed = on_ellipses(1 / 6)
     a = table(
         ["", "mean", "max"],
@@ -162,57 +163,12 @@ def report() -> str:
         ],
     )
     header = ["patch", "rows × columns", "in contact", "normal [ms]", "tangential, mean [ms]", "tangential, max [ms]"]
-    return TEXT.format(
-        n_a=len(errors),
-        steps=steps,
-        failed=failed,
-        a=a,
-        d=d,
-        fine=table(header, fine_rows),
-        coarse=table(header, coarse_rows),
-        order=table(["case", "rigid slip at", "12", "24", "48", "96 elements"], convergence()),
-    )
-
-
-TEXT = """# The element-wise half space
-
-`benchmarks/halfspace.py` writes this page. The reference is CONTACT 25.1 (rev 2707, Apache-2.0) on the same elements. Its
-numbers have five or six digits.
-
-## Ellipses ({n_a} cases, 66 × 66 elements)
-
-Differences of forces over μN and of moments over μN√(ab). At most {steps} Newton steps; {failed} cases not converged.
-
-{a}
-## Real patches (S1002 on UIC60, the same approach, 7 states of creepage each)
-
-CONTACT's elements are 0.2 mm wide. The column for 0.5 mm shows the error of a coarse grid.
-
-{d}
-## Known differences from CONTACT
-
-* CONTACT weakens the interaction of separate parts of a patch in one plane by a factor that depends on its settings D_COMB and
-  D_SEP. Its load differs by 9 to 12 % from ours in two of 131 poses; with D_COMB = 7.99 mm it
-  agrees. The right wheel at 5 mm in the [Manchester benchmark](manchester.md) is such a case.
-* Its flash temperature counts the element's own share twice. Ours agrees with the
-  closed form.
-* Its KPEC, a fast normal method, may cut a strip deeper than the profiles overlap. At 0 mm in the
-  [Manchester benchmark](manchester.md) this gives 443 MPa in one row at the edge of the patch, and 302 MPa with a cap.
-
-## Time
-
-The shortest of several runs in one thread on a shared machine. CONTACT with its default tangential solver needs 13.5 ms for
-the normal problem and 2.1 s for both on a 68 × 124 grid, 2 ms and 47 ms on 28 × 50.
-In another comparison at 0.2 mm that solver took 3.9 s, its GDsteady .46 s and ours .2 s.
-
-{fine}
-{coarse}
-## Order of convergence
-
-The error of the force over μN against the limit of vanishing elements, Hertz's pressure, n × n elements. It is of first
-order. Under spin it depends on where in the element the rigid slip is taken; the default is x + dx/6, as in CONTACT.
-
-{order}"""
+    return {
+        "a": f"At most {steps} Newton steps; {failed} cases not converged.\n\n{a}",
+        "d": d,
+        "times": f"{table(header, fine_rows)}\n{table(header, coarse_rows)}",
+        "order": table(["case", "rigid slip at", "12", "24", "48", "96 elements"], convergence()),
+    }
 
 
 if __name__ == "__main__":

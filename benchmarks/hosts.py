@@ -16,7 +16,7 @@ from pathlib import Path
 
 import fmpy
 
-from benchmarks.tables import read_options, table
+from benchmarks.tables import fill, read_options, table
 
 EXAMPLES = Path(__file__).parents[1] / "examples" / "hosts"
 PYTHON = os.environ.get("HOSTS_PYTHON", sys.executable)
@@ -41,49 +41,6 @@ REASONS = {
     r"\d+ values are given, but the variables have|fmi3GetFloat64 failed": "no arrays",
     r"== FMI_2|Allocating FMIL context": "no FMI 3",
 }
-FOOT = """
-"Same" is every digit. Where a host makes more than one step, the later ones start from the last solution of the strips and
-agree within its tolerance. CasADi and PathSim take one number for each variable of FMI 3.0, so they read no arrays; give them
-the files of FMI 2.0. Ecos finds an array by its name, asks for a single number too, and shows 0 when it is refused.
-
-## Not to be had
-
-| host | what we found |
-| --- | --- |
-| OMSimulator | the package on PyPI fetches its program from another server |
-| OpenModelica, OMPython | Debian has no `omc`, which OMPython calls |
-| pyfmi | the source on PyPI, of 2018, does not build; it also needs Assimulo |
-| Chrono | the package pychrono on PyPI is another program, a scheduler |
-| FMI4j | Maven's repository cannot be reached |
-| Rust (fmi-rs), Julia (FMI.jl) | their registries cannot be reached; Debian has no Julia |
-| Scilab | Debian's has no FMI toolbox |
-| npm | nothing that loads a binary FMU |
-| gemseo-fmu, ovfmi, FMUGym, exudyn | load FMUs by fmpy and show what it shows; exudyn was run ([exudyn](exudyn.md)) |
-| mosaik-fmi | needs fmipp, which needs swig to build |
-| uniFMU, PythonFMU3 | make FMUs, load none |
-| vdmcheck, fmusim | no package |
-
-Events and intermediate values of co-simulation in FMI 3.0 are not offered (`hasEventMode`, `providesIntermediateUpdate`):
-nothing happens within a step, and inputs may change between any two. A host that asks for them at the instantiation gets an
-error that says so.
-
-## What a host should not do
-
-Every class has tests. Of those with an asterisk a part runs every time, and all of it in `make soak`.
-
-| class | tests |
-| --- | --- |
-| null pointers, forged states | `test_native_host.py`: `no_wrong_call_ends_the_host`\\* |
-| value references, order | `every_state_meets_every_function`, `any_function_in_any_order`, `random_calls_of_fmi_3` |
-| values | `a_bad_input_is_discarded`, `extreme_values`; `test_native_traps.py` |
-| states | `a_restored_or_serialised_state`, `damaged_bytes_are_no_state` |
-| steps | `an_invalid_step_is_an_error`, `a_step_is_not_done_twice`; `test_native_discard.py` |
-| allocations, small stacks, fork, reload | `test_native_host.py`: `hard_circumstances_end_no_host`\\* |
-| threads | `on_linux` and `fmi_3` with `threads` |
-| resources | `test_native_table.py`, `test_native_uris.py`, `test_damaged_files.py`\\* |
-| memory over time | `cycles_and_steps_leave_memory_as_it_was`\\* |
-| undefined behaviour | `sanitizers_find_nothing`\\*, `valgrind_finds_nothing` |
-"""
 
 
 def run(host: str, path: Path, case: tuple[str, float, str]) -> float | str:
@@ -129,16 +86,7 @@ def of_hosts(folder: Path) -> str:
 
 def main() -> None:
     arguments = read_options(__doc__, folder=Path, out=Path)
-    cases = "; ".join(f"`{name}`: {wanted} at {given} = {value:g}" for name, (given, value, wanted) in CASES.items())
-    head = f"""# Hosts
-
-Native FMUs of both versions of FMI: the difference of the number that a host reads from that of fmpy ({cases}).
-`python -m benchmarks.hosts dist/native` writes this page from runs of the scripts of `examples/hosts`, which are tests too.
-"""
-    text = "\n".join([head, of_hosts(arguments.folder).rstrip("\n"), FOOT])
-    print(text)
-    if arguments.out:
-        arguments.out.write_text(text, encoding="utf-8")
+    fill(arguments.out, {"hosts": of_hosts(arguments.folder)})
 
 
 if __name__ == "__main__":

@@ -20,16 +20,6 @@ from contact.study.table import Table, number, percent
 from reference.manchester import FRICTION, Place, places, settled
 
 METHODS = (*SELECTION, Pair("kpec", "fastsim"))
-NOTES = (
-    "CONTACT's elements are 0.2 mm wide. At 7 and 10 mm its patch has only four rows of them, so its peak is less certain.",
-    "CONTACT's KPEC has 443 MPa at 0 mm, 31 % above its own half space. At the edge of this patch it cuts strips deeper than "
-    "the profiles overlap, and one row of elements determines the peak. If the depth of the cut is capped at the overlap, "
-    "CONTACT gives 302 MPa and 14.0 µm on every grid. Our KPEC has this cap.",
-    "At 5 mm the right wheel has two patches close to each other. CONTACT weakens the interaction of such patches by a factor "
-    "that depends on its settings D_COMB and D_SEP. In our half space they interact fully.",
-    "At 0 and 0.5 mm the longitudinal creepage is small. Ours is that of the wheel's surface. It differs from CONTACT's by up "
-    "to the penetration over the radius, 4e-5, and the forces differ accordingly.",
-)
 
 
 class Found(NamedTuple):
@@ -93,17 +83,10 @@ _ERRORS: Sequence[tuple[str, Callable[[Place, Row], float]]] = (
 )
 
 
-def page() -> str:
-    """Return the page."""
-    about = (
-        f"wheelrail-contact {contact.__version__} compared with CONTACT (Apache-2.0; 25.1, rev 2707, and the examples of rev "
-        "2447) by `python -m benchmarks.manchester`. S1002 on UIC 60 1:40: a wheelset on straight track, displaced and yawed "
-        "by 2.4 mrad per millimetre, 10 kN on each wheel. Forces act on the wheel. At the height used, our half space carries "
-        "the load. All methods have its normal force."
-    )
-    parts = (table.markdown() for table in tables(compute()))
-    return "\n\n".join(["# Manchester contact benchmark, A-2.2", about, *NOTES, *parts]) + "\n"
+def report() -> dict[str, str]:
+    """Return the tables of the page."""
+    return {"tables": "\n\n".join(table.markdown() for table in tables(compute())) + "\n"}
 
 
 if __name__ == "__main__":
-    tell(page, __doc__)
+    tell(report, __doc__)

@@ -218,42 +218,11 @@ def resolution_table() -> str:
     return table(["methods", "doubled", "mean", "95 %", "max"], rows)
 
 
-def report() -> str:
+def report() -> dict[str, str]:
     """Return all tables as Markdown."""
-    return TEXT.format(
-        lateral=lateral_tables(), zoom=zoom_table(), sweeps=sweep_tables(), resolution=resolution_table()
-    )
-
-
-TEXT = """# Smoothness
-
-S1002 on 60E1 (1:40), right wheel, μ = 0.3, default resolution. Jumps are the largest differences between neighbouring
-positions. Noise is the size of the second differences. Approach, pressure and area are relative, forces are over μN, moments
-over μN√(area/π). Written by `benchmarks/smoothness.py`.
-
-## Lateral displacement −8 to +8 mm in steps of 0.01 mm
-
-One plane at fixed creepages (0.1 %, 0.1 %, 0.3 /m) carries 80 kN along its normal. With kinematic creepages and with separate
-patches the load is 80 kN vertically.
-{lateral}
-### Jumps under refinement
-
-The table has the largest jump of each result in finer steps. If the jump shrinks with the step, the curve is continuous.
-Between 6.670 and 6.671 mm the strip half space has a jump that does not shrink: with 20 strips the end of the patch is not
-steady there ([strip half space](../understand/strip_halfspace.md), section 5).
-
-{zoom}
-## Load, creepage and spin
-
-The worst of an ellipse and four real patches is shown.
-
-{sweeps}
-## Resolution
-
-The table has the change of the force over μN from the default to the doubled resolution, on ellipses and real patches in 16
-states each.
-
-{resolution}"""
+    return {
+        "lateral": lateral_tables(), "zoom": zoom_table(), "sweeps": sweep_tables(), "resolution": resolution_table()
+    }  # fmt: skip
 
 
 if __name__ == "__main__":

@@ -22,7 +22,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 import contact
-from benchmarks.tables import read_options
+from benchmarks.tables import fill, read_options
 from contact.arrays import Array
 from contact.registry import methods
 from contact.study.ellipse import ellipse
@@ -143,19 +143,10 @@ def tables(d: Cases, reference: Array) -> list[Table]:
 
 
 def main() -> None:
-    """Print the page, or write it."""
+    """Print the tables, or write them into the page."""
     given = read_options(__doc__, cases=int, write=Path)
     d = design(given.cases)
-    about = (
-        f"wheelrail-contact {contact.__version__}, `python -m benchmarks.statistics`. Cases of Vollebregt, Iwnicki, Xie and "
-        "Shackleton (2012): five ellipses, spin chi, size m and direction of the creepage. Errors are against our half space "
-        f"with {ELEMENTS} × {ELEMENTS} elements on the ellipse; times are per case in one thread."
-    )
-    parts = [table.markdown() for table in tables(d, reference_forces(d))]
-    text = "\n\n".join(["# Creep forces on ellipses", about, *parts]) + "\n"
-    print(text)
-    if given.write:
-        given.write.write_text(text, encoding="utf-8")
+    fill(given.write, {"tables": "\n\n".join(each.markdown() for each in tables(d, reference_forces(d))) + "\n"})
 
 
 if __name__ == "__main__":

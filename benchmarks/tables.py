@@ -1,4 +1,7 @@
-"""Markdown tables of the reports, and how a report is printed and written."""
+"""Markdown tables of the reports, and how a report is printed and written.
+
+A page of the documentation keeps its own text; a report writes what stands between marks, ``<!-- name -->``.
+"""
 
 from __future__ import annotations
 
@@ -47,10 +50,26 @@ def read_options(
     return parser.parse_args(arguments)
 
 
-def tell(report: Callable[[], str], description: str | None) -> None:
-    """Print a report, and write it to the file that ``--write`` names."""
-    path = read_options(description, write=Path).write
-    text = report()
-    print(text)
-    if path:
-        path.write_text(text, encoding="utf-8")
+def with_part(text: str, name: str, part: str) -> str:
+    """Return a page with the part between its two marks replaced."""
+    begin, end = f"<!-- {name} -->\n", f"<!-- end of {name} -->"
+    if begin not in text or end not in text:
+        raise ValueError(f"the page has no marks of the part {name!r}")
+    head, rest = text.split(begin, 1)
+    return f"{head}{begin}{part}{end}{rest.split(end, 1)[1]}"
+
+
+def fill(page: Path | None, parts: dict[str, str]) -> None:
+    """Print parts of a page, and write them between their marks if a page is given."""
+    print(*parts.values(), sep="\n")
+    if page is not None:
+        text = page.read_text(encoding="utf-8")
+        for name, part in parts.items():
+            text = with_part(text, name, part)
+        page.write_text(text, encoding="utf-8")
+
+
+def tell(report: Callable[[], dict[str, str]], description: str | None) -> None:
+    """Print a report, and write its parts into the page that ``--write`` names."""
+    page = read_options(description, write=Path).write
+    fill(page, report())

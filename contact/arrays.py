@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -61,7 +63,7 @@ def require_numbers(
     return array
 
 
-def broadcast(arrays: dict[str, Array]) -> list[Array]:
+def broadcast(arrays: Mapping[str, NDArray[Any]]) -> list[NDArray[Any]]:
     """Return arrays, given by name, with one shape.
 
     Raises
@@ -74,6 +76,12 @@ def broadcast(arrays: dict[str, Array]) -> list[Array]:
     except ValueError:
         told = ", ".join(f"{name} {array.shape}" for name, array in arrays.items())
         raise ContactError(f"shapes do not broadcast: {told}") from None
+
+
+def connected(steps: NDArray[np.bool_], first: int) -> slice:
+    """Return the range of points around one that true steps connect; step k leads from point k to the next one."""
+    before, behind = np.flatnonzero(~steps[:first]), np.flatnonzero(~steps[first:])
+    return slice(int(before[-1]) + 1 if before.size else 0, 1 + (first + int(behind[0]) if behind.size else steps.size))
 
 
 def _placed(name: str, where: tuple[int | np.intp, ...]) -> str:

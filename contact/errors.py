@@ -8,6 +8,7 @@ import warnings
 from collections.abc import Callable, Iterable, Iterator
 from contextvars import ContextVar
 from difflib import get_close_matches
+from importlib import import_module
 from types import NoneType, UnionType
 from typing import Any, TypeVar
 
@@ -208,6 +209,15 @@ def suggestion(word: object, known: Iterable[str]) -> str:
     originals = {name.casefold(): name for name in known}
     close = get_close_matches(str(word).casefold(), originals, n=1)
     return f", did you mean {originals[close[0]]!r}?" if close else ""
+
+
+def optional(module: str, what: str, extra: str) -> Any:
+    """Return a module that an extra installs. Without it an ImportError says `what` needs it, and the extra's name."""
+    try:
+        return import_module(module)
+    except ImportError as missing:
+        named = module.partition(".")[0]
+        raise ImportError(f"{what} {named}: pip install 'wheelrail-contact[{extra}]'") from missing
 
 
 class _OnlyWithFields:

@@ -10,22 +10,14 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from contact.arrays import Array, require_numbers
+from contact.arrays import Array, broadcast, require_numbers
 from contact.core import pack
 from contact.errors import ContactError, require_flag, require_integer
 from contact.friction import Friction
 from contact.inputs.creepage import Creepage
 from contact.inputs.material import STEEL, Material
 from contact.inputs.options import CREEPAGE, FRICTION, N_ELEMENTS, N_STRIPS
-from contact.inputs.plausibility import (
-    doubt_alike,
-    doubt_beyond,
-    doubt_gap,
-    doubt_normal_force,
-    doubt_rows,
-    doubt_strips,
-    doubt_values,
-)
+from contact.inputs.plausibility import doubt_alike, doubt_values
 from contact.inputs.separation import Separation
 from contact.instance import workspace
 from contact.instance.case import cases as prepared_cases
@@ -36,8 +28,8 @@ from contact.kernels.jacobian import COLUMNS, ROWS
 from contact.kernels.pipeline import solve_cases
 from contact.kernels.records import RESULT
 from contact.kernels.solver import derive_contact
-from contact.registry import DEFAULT_NORMAL, DEFAULT_TANGENTIAL, GAP_LIMIT_INTERACTING, lookup
-from contact.results import BEND, BEYOND, Forces, Jacobian
+from contact.registry import DEFAULT_NORMAL, DEFAULT_TANGENTIAL, lookup
+from contact.results import Forces, Jacobian, doubt_answer
 from contact.solver import require_conformal, require_resolution
 
 _CHUNK = 256
@@ -118,27 +110,18 @@ def forces(
         raise ContactError("exactly one of load and approach is needed")
     surface, coefficients = (friction, friction.static) if isinstance(friction, Friction) else (None, friction)
     index = np.arange(len(separations)) if not isinstance(separation, Separation) else np.array(0)
-    columns: list[NDArray[Any]] = [
-        require_numbers("load", load, 0.0) if load is not None else require_numbers("approach", approach),
-        *(
-            require_numbers(f"creepage.{name}", value, *CREEPAGE.bounds)
-            for name, value in zip(_PARTS, creepages, strict=True)
-        ),
-        require_numbers("friction", coefficients, *FRICTION.bounds),
-        require_numbers("speed", speed, 0.0),
-        index,
-    ]
     load_name = "approach" if load is None else "load"
-    names = (load_name, *(f"creepage.{name}" for name in _PARTS), "friction", "speed")
-    for name, values in zip(names, columns, strict=False):  # the last column has no values, but places of separations
+    columns: dict[str, NDArray[Any]] = {
+        load_name: require_numbers("load", load, 0.0) if load is not None else require_numbers("approach", approach)
+    }
+    for name, value in zip(_PARTS, creepages, strict=True):
+        columns[f"creepage.{name}"] = require_numbers(f"creepage.{name}", value, *CREEPAGE.bounds)
+    columns["friction"] = require_numbers("friction", coefficients, *FRICTION.bounds)
+    columns["speed"] = require_numbers("speed", speed, 0.0)
+    for name, values in columns.items():
         doubt_values(name, values)
-    try:
-        amount, vx, vy, phi, mu, V, which = np.broadcast_arrays(*columns)
-    except ValueError:
-        shapes = ", ".join(str(np.shape(c)) for c in columns)
-        raise ContactError(
-            f"shapes of load, creepages, friction, speed and separation do not broadcast: {shapes}"
-        ) from None
+    columns["separation"] = index
+    amount, vx, vy, phi, mu, V, which = broadcast(columns)
     n_strips, n_elements = require_resolution(n_strips, n_elements)
     method, rolling = (lookup(*kind, batched=True) for kind in (("normal", normal), ("tangential", tangential)))
     if require_flag("conformal", conformal):
@@ -191,18 +174,12 @@ def forces(
         return np.ascontiguousarray(results[name]).reshape(shape)
 
     if count:
-        worst = int(results["N"].argmax())
-        doubt_normal_force(float(results["N"][worst]), separations[which[worst]].told)
-        worst = int(results["gap_error"].argmax())
-        doubt_gap(
-            float(results["gap_error"][worst]), method.gap_limit, separations[which[worst]].told, "gap in an array"
-        )
-        worst = int(results["bend"].argmax())
-        doubt_strips(float(results["bend"][worst]), BEND, conformal, separations[which[worst]].told)
-        worst = int(results["beyond"].argmax())
-        doubt_beyond(float(results["beyond"][worst]), BEYOND, separations[which[worst]].told)
+        for name in ("N", "gap_error", "bend", "beyond"):
+            worst = int(results[name].argmax())
+            told = separations[which[worst]].told
+            doubt_answer(told, method.gap_limit, conformal, " in an array", **{name: float(results[name][worst])})
         least_true = max(separations, key=lambda one: one.fit_error)
-        doubt_rows(least_true.fit_error, GAP_LIMIT_INTERACTING, least_true.told)
+        doubt_answer(least_true.told, fit_error=least_true.fit_error)
     area = column("area")
     slip_ratio = np.divide(column("slip_area"), area, out=np.zeros(shape), where=area > 0.0)
     return Forces(
@@ -217,8 +194,8 @@ def forces(
         power_per_metre=column("power"),
         status=results["status"].reshape(shape),
         gap_error=column("gap_error"),
-        jacobian=None if slopes is None else Jacobian(slopes.reshape(*shape, ROWS, COLUMNS), names[0]),
-    )._with_inputs(dict(zip((load_name, *_PARTS, "friction", "speed", "separation"), columns, strict=True)))
+        jacobian=None if slopes is None else Jacobian(slopes.reshape(*shape, ROWS, COLUMNS), load_name),
+    )._with_inputs({name.removeprefix("creepage."): values for name, values in columns.items()})
 
 
 def _creepages(given: Any) -> tuple[ArrayLike, ArrayLike, ArrayLike]:

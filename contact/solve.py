@@ -24,10 +24,10 @@ from contact.halfspace.third_body import ThirdBody
 from contact.inputs.creepage import Creepage, as_creepage
 from contact.inputs.material import STEEL, Material
 from contact.inputs.options import ITERATIONS, N_ELEMENTS, N_STRIPS
-from contact.inputs.plausibility import doubt_case, doubt_rows
+from contact.inputs.plausibility import doubt_case
 from contact.inputs.separation import Separation
-from contact.registry import DEFAULT_NORMAL, DEFAULT_TANGENTIAL, GAP_LIMIT_INTERACTING, Method, lookup
-from contact.results import Solution
+from contact.registry import DEFAULT_NORMAL, DEFAULT_TANGENTIAL, Method, lookup
+from contact.results import Solution, doubt_answer
 from contact.solver import (
     Solver,
     require_amount,
@@ -204,7 +204,7 @@ def solve(
         vector = creepage.longitudinal, creepage.lateral, creepage.spin
         doubt_case(load, approach, vector, surface.static, speed)
         if isinstance(separation, Separation):
-            doubt_rows(separation.fit_error, GAP_LIMIT_INTERACTING, separation.told)
+            doubt_answer(separation.told, fit_error=separation.fit_error)
         solver = press_gap(
             separation,
             division,

@@ -17,16 +17,7 @@ from contact.given_force import as_numbers, wanted_force
 from contact.inputs.creepage import Creepage, as_creepage
 from contact.inputs.material import STEEL, Material
 from contact.inputs.options import ITERATIONS, N_ELEMENTS, N_STRIPS
-from contact.inputs.plausibility import (
-    USUAL_N,
-    doubt_alike,
-    doubt_beyond,
-    doubt_case,
-    doubt_gap,
-    doubt_normal_force,
-    doubt_rows,
-    doubt_strips,
-)
+from contact.inputs.plausibility import doubt_alike, doubt_case
 from contact.inputs.separation import Separation
 from contact.instance import workspace
 from contact.instance.case import cases, set_surface
@@ -36,7 +27,7 @@ from contact.kernels.enumerations import LoadKind
 from contact.kernels.normal.start import MEM_IMAGE
 from contact.kernels.solver import derive_contact, solve_contact, solve_contact_under_force
 from contact.registry import DEFAULT_NORMAL, DEFAULT_TANGENTIAL, GAP_LIMIT_INTERACTING, Method, lookup
-from contact.results import BEND, BEYOND, CaseForces, Jacobian, Prepared, Solution, Status
+from contact.results import ANSWERS, BEND, BEYOND, CaseForces, Jacobian, Prepared, Solution, Status, doubt_answer
 from contact.results.later import STATES
 from contact.results.solution import BEND_AT, BEYOND_AT, GAP_ERROR, N_AT, READ_RESULT, STATUS
 from contact.view import trace
@@ -356,15 +347,14 @@ class Solver(OwnsArrays):
             found[GAP_ERROR] <= self.normal.gap_limit
             and found[BEND_AT] <= BEND
             and found[BEYOND_AT] <= BEYOND
-            and found[N_AT] <= USUAL_N.largest
+            and found[N_AT] <= ANSWERS["N"].largest
             and fit_error <= GAP_LIMIT_INTERACTING
         ):
             return
-        doubt_normal_force(found[N_AT], self.told)
-        doubt_strips(found[BEND_AT], BEND, self.conformal, self.told)
-        doubt_gap(found[GAP_ERROR], self.normal.gap_limit, self.told)
-        doubt_beyond(found[BEYOND_AT], BEYOND, self.told)
-        doubt_rows(fit_error, GAP_LIMIT_INTERACTING, self.told)
+        doubt_answer(
+            self.told, self.normal.gap_limit, self.conformal, N=found[N_AT], bend=found[BEND_AT], gap_error=found[GAP_ERROR],
+            beyond=found[BEYOND_AT], fit_error=fit_error,
+        )  # fmt: skip
 
     def _jacobian(self, load: float | None) -> Jacobian:
         """Return a copy of the derivatives of the last solution."""

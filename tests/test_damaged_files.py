@@ -177,7 +177,7 @@ def test_damaged_files_of_slices_and_a_damaged_slice_in_a_file_and_in_a_folder(t
 def test_a_damaged_file_of_cases(tmp_path, name):
     path = tmp_path / name
     path.write_text(CASES[name])
-    given = vars(arguments.PlaceOptions()) | vars(arguments.Reading()) | vars(arguments.Amount())
+    given = vars(arguments.PlaceOptions()) | vars(arguments.Amount())
     given |= {"side": options.SideOption.right, "friction": 0.3, "curvatures": None}
     survived(path, lambda: cases.read(path, given), 20)
 

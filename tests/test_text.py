@@ -81,7 +81,7 @@ def test_toml_is_read_in_every_encoding_and_with_typographic_signs_outside_its_t
 def test_cases_have_semicolons_and_decimal_commas(tmp_path):
     path = tmp_path / "cases.csv"
     path.write_text("y;load;creepage\n0,001;80000;0,001 0 0,1\n\N{MINUS SIGN}0,002;9e4;\n", encoding="utf-16")
-    given = vars(arguments.PlaceOptions()) | vars(arguments.Reading()) | vars(arguments.Amount())
+    given = vars(arguments.PlaceOptions()) | vars(arguments.Amount())
     given |= {"side": options.SideOption.right, "friction": 0.3, "curvatures": None}
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")

@@ -4,7 +4,7 @@ import warnings
 from pathlib import Path
 
 from benchmarks.proof import crossing, discs, locomotive, roller, steering, thesis
-from benchmarks.tables import table
+from benchmarks.tables import fill, table
 from contact.errors import ModelWarning, PlausibilityWarning
 
 DOCS = Path(__file__).resolve().parents[2] / "docs"
@@ -17,21 +17,6 @@ CASES = (
     ("Crossings", "CONTACT 25.1, set F", crossing, "Forces good; pressures of strips poor on rough rails"),
     ("Twin disc, flash temperature", "Lewis and Dwyer-Joyce 2004", discs, "Too hot; disc sizes recalled"),
 )
-
-NOT_FOUND = """## Not found
-
-Looked for in stored copies of web pages (only their beginnings), documentation, code and threads, in November 2026.
-
-| wanted | found |
-| --- | --- |
-| Manchester contact benchmark (2008) by other programs | no numbers. CONTACT's are in [its page](manchester.md) |
-| finite elements against CONTACT on it (Vehicles 7(3):104, 2025) | abstract and introduction of the article, no table |
-| Manchester vehicle benchmark | masses in public code; the contents of Universal Mechanism's chapter on it |
-| creep curves in the field (Polach, Harrison, TU Berlin) | abstracts; Polach (Wear 258, 2005) up to its equations, no points |
-| laboratory creep curves (V-Track, Lubricants 13(7):287) | abstract |
-| switches and crossings (HAL hal-04225767), Bezin's benchmark | abstract |
-| wear regimes of R8T | nothing |
-"""
 
 
 def summary() -> tuple[str, str]:
@@ -46,21 +31,6 @@ def summary() -> tuple[str, str]:
     return table(["case", "source", "agreement", "verdict"], rows), "\n".join(texts)
 
 
-def page(rows: str, texts: str) -> str:
-    """Return the text of docs/check/proof.md."""
-    return f"""# Proof: published cases
-
-`make proof` writes this page from the numbers in `reference/`.
-
-{rows}
-[Agreement with the thesis](../understand/thesis/agreement.md), the [Manchester contact benchmark](manchester.md),
-[creep forces on ellipses](statistics.md), the [map of methods](method_map.md) and [real time](real_time.md) have their own
-pages.
-
-{texts}
-{NOT_FOUND}"""
-
-
 if __name__ == "__main__":
     for kind in (PlausibilityWarning, ModelWarning):  # of large slips, and of methods that are shown for their errors
         warnings.simplefilter("ignore", kind)
@@ -71,6 +41,6 @@ if __name__ == "__main__":
     roller.draw(folder / "roller_rig.png")
     crossing.draw(folder / "crossing.png")
     rows, texts = summary()
-    (DOCS / "check" / "proof.md").write_text(page(rows, texts), encoding="utf-8")
+    fill(DOCS / "check" / "proof.md", {"summary": rows, "sections": texts})
     (folder / "summary.txt").write_text(rows, encoding="utf-8")
-    (DOCS / "understand" / "thesis" / "agreement.md").write_text(thesis.page(), encoding="utf-8")
+    fill(DOCS / "understand" / "thesis" / "agreement.md", {"claims": thesis.claims()})

@@ -197,92 +197,12 @@ CLAIMS: list[tuple[str, str, Callable[[], str], str]] = [
 
 
 #: The figures of the thesis, their subject as its captions say, and where we have it.
-FIGURES = [
-    [
-        "2.5, 2.6",
-        ("relative curvature of S1002 on UIC60, 1:40; its patches over the lateral position, by Knothe and Le The"),
-        "[2](chapter2.md): ours are an ellipse, and where the patch stops to be one",
-    ],
-    [
-        "4.1, 4.2, 4.4",
-        "Carter: traction, creep curve, its slope",
-        "[4](chapter4.md)",
-    ],
-    [
-        "4.8, 4.9",
-        (
-            "strip theory: creep curve and traction of the middle strip, a = .2, b = 1 mm with creepage 1.5; a = "
-            "5, b = 1 mm with .02"
-        ),
-        "[4](chapter4.md), other cases",
-    ],
-    [
-        "4.11, 4.12",
-        "FASTSIM with parabolic and elliptic bound: fields under pure spin, creep curve and error",
-        "[4](chapter4.md), Figs. 4.11 and 4.16 there",
-    ],
-    [
-        "4.13 to 4.16",
-        (
-            "FASTSIM's creep curves: no spin and pure spin; a/b = .2 with equal creepages; large spin; spin "
-            "against lateral creepage"
-        ),
-        "[4](chapter4.md)",
-    ],
-    [
-        "5.1 to 5.3",
-        "linear and cubic saturation, circle",
-        "[5](chapter5.md)",
-    ],
-    [
-        "7.4 to 7.6",
-        "patches of virtual penetration; error of the parabolic bound; stick zone at low and high creepage",
-        "[7](chapter7.md), table above",
-    ],
-    [
-        "9.1 to 9.5",
-        "S1002 on UIC60 in the middle, and 1 and 2 mm to the field side: patches and largest pressures",
-        "[9](chapter9.md)",
-    ],
-    [
-        "9.6, 9.7",
-        "ANALYN + FASTSIM at 5 mm with spin .25 1/m and creepage 2.5 ‰; creep curves in the middle",
-        "[9](chapter9.md), Fig. 9.10 there",
-    ],
-    [
-        "9.8 to 9.10",
-        (
-            "FaStrip: lateral creepage against spin; tractions and slip on strips at y = ±.4 of a circle of 1 mm,"
-            " creepages -.22 and -.2, spin -.22 and .2 1/mm"
-        ),
-        "[9](chapter9.md), Figs. 9.5 and 9.6 there",
-    ],
-    [
-        "9.11",
-        "energy index of a tread contact",
-        "[9](chapter9.md)",
-    ],
-]
 
 
-def page() -> str:
-    """Return the text of docs/understand/thesis/agreement.md."""
+def claims() -> str:
+    """Return the table of docs/understand/thesis/agreement.md."""
     rows = [[where, says, ours(), verdict] for where, says, ours, verdict in CLAIMS]
-    return f"""# Agreement with the thesis
-
-`make proof` writes this page: all numbers and claims in a transcript of the thesis' summary that can be computed. It has
-neither figures nor Papers A to E. Errors are of the force over friction times load; ellipses are those of set A, a/b from
-.2 to 5, against CONTACT.
-
-{table(["section", "the thesis says", "ours", "verdict"], rows)}
-FASTSIM is said to be about 1000 times and ANALYN about 300 times faster than CONTACT (4.6, 9.2); the
-[map of methods](../../check/method_map.md) has our times.
-
-## What the figures show
-
-Subjects of the thesis' figures, from its captions:
-
-{table(["figure", "subject", "our page"], FIGURES)}"""
+    return table(["section", "the thesis says", "ours", "verdict"], rows)
 
 
 if __name__ == "__main__":

@@ -13,7 +13,7 @@ import numpy as np
 
 from contact.accumulation.histogram import MAXIMA, SUMS, Histogram
 from contact.damage import ArchardMap, Burstow, DamageParameters, PearceSherratt, Usfd
-from contact.errors import ContactError
+from contact.errors import ContactError, optional
 from contact.geometry.profile import Profile
 from contact.inputs.material import Material
 
@@ -150,9 +150,6 @@ def _described(unit: str, meaning: str) -> dict[str, str]:
 
 
 def _xarray() -> Any:
-    try:
-        import scipy.io  # noqa: F401
-        import xarray
-    except ImportError as missing:
-        raise ImportError("histograms in files need xarray: pip install 'wheelrail-contact[xarray]'") from missing
-    return xarray
+    needed = "histograms in files need"
+    optional("scipy.io", needed, "xarray")
+    return optional("xarray", needed, "xarray")

@@ -78,7 +78,6 @@ def along(
     *,
     place: arguments.PlaceOptions,
     change: OutOfRound,
-    reading: arguments.Reading,
     way: Stations,
     load: opt.Load = None,
     vertical: opt.Vertical = None,
@@ -93,9 +92,9 @@ def along(
 
     contact along --flat 0.05 --from -0.05 --to 0.05
     """
-    wheel = _wheel(place.wheel, reading).with_deviations(*change.deviations(place.radius))
+    wheel = _wheel(place).with_deviations(*change.deviations(place.radius))
     slices = Path(place.rail).suffix == ".slcs"
-    rail = RailSurface.read(place.rail) if slices else reading.load(place.rail, "rail")
+    rail = RailSurface.read(place.rail) if slices else place.load(place.rail, "rail")
     pair = SurfacePair(wheel, rail, **place.lengths, rail_origin=change.origin)
     motion: dict[str, Any] = {"station": np.linspace(way.begin, way.end, way.points), "velocity.x": place.speed}
     motion |= {"pose.y": place.y, "pose.roll": place.roll, "pose.yaw": place.yaw}
@@ -111,11 +110,11 @@ def along(
     require_trusted(found["status"].tolist(), "stations")
 
 
-def _wheel(name: str, reading: arguments.Reading) -> WheelSurface:
+def _wheel(place: arguments.PlaceOptions) -> WheelSurface:
     """Return a wheel from a file of slices, or of revolution."""
-    if Path(name).suffix == ".slcw":
-        return WheelSurface.read(name)
-    return WheelSurface.constant(reading.load(name, "wheel"))
+    if Path(place.wheel).suffix == ".slcw":
+        return WheelSurface.read(place.wheel)
+    return WheelSurface.constant(place.load(place.wheel, "wheel"))
 
 
 def _show(found: PairRun, console: Console) -> None:

@@ -28,7 +28,6 @@ from contact.cli.inp import inp
 from contact.cli.lut import lut
 from contact.cli.output import deliver, drawing, reported
 from contact.cli.plugins import add_plugins
-from contact.cli.problem import Position
 from contact.cli.profile_check import check
 from contact.cli.rail import rail as elastic_rail
 from contact.cli.roller import roller
@@ -60,7 +59,6 @@ def solve(
     context: typer.Context,
     *,
     place: arguments.PlaceOptions,
-    reading: arguments.Reading,
     side: opt.Sides = opt.SideOption.right,
     amount: arguments.Amount,
     curvatures: opt.Curvatures = None,
@@ -84,20 +82,12 @@ def solve(
     options = {"friction": surface.law(gauge_friction), "material": arguments.material(pressure_limit, bodies)}
     options |= {**vars(methods), **(PICTURE_RESOLUTION if output.out else {})}
     options |= {"force": arguments.force(fx, fy), "layer": arguments.third_body(layer)}
-    options["trace"] = trace
+    options |= {"trace": trace, "conformal": conformal}
     arguments.require_use(context)
     with redirect_stdout(sys.stderr if output.as_json else sys.stdout):  # a trace is not part of the JSON
-        if curvatures is not None:
-            hertzian = problem.solve_hertzian(
-                curvatures, amount.load, amount.penetration, amount.given, options | {"speed": place.speed}
-            )
-            touches = [hertzian]
-            title = f"Half curvatures {curvatures[0]:g} and {curvatures[1]:g} 1/m"
-        else:
-            case = place.position(reading, side)
-            options |= {"conformal": conformal}
-            touches = problem.solve_position(case, amount.load, amount.penetration, amount.given, options)
-            title = _title(case)
+        case = None if curvatures is not None else place.position(side)
+        touches = amount.touches(case, curvatures, place.speed, options)
+    title = f"Half curvatures {curvatures[0]:g} and {curvatures[1]:g} 1/m" if curvatures else _title(case)
     report.deliver_patches(touches, title, place.radius, output)
 
 
@@ -106,7 +96,6 @@ def solve(
 def patch(
     *,
     place: arguments.PlaceOptions,
-    reading: arguments.Reading,
     side: opt.Sides = opt.SideOption.both,
     amount: arguments.Amount,
     surface: arguments.SlidingFriction,
@@ -122,10 +111,10 @@ def patch(
     """
     drawing()
     output.out = output.out or [Path("patch.png")]
-    case = place.position(reading, side)
+    case = place.position(side)
     options = {"friction": surface.law(gauge_friction), "material": arguments.material(pressure_limit)}
     options |= {**vars(methods), "conformal": conformal, **PICTURE_RESOLUTION}
-    touches = problem.solve_position(case, amount.load, amount.penetration, amount.given, options)
+    touches = amount.touches(case, None, place.speed, options)
     sides = {name: [t for t in touches if t.side == name] for name in case.sides}
 
     def figure() -> Any:
@@ -149,7 +138,6 @@ def curve(
     points: opt.Points = 41,
     curvatures: opt.Curvatures = None,
     place: arguments.PlaceOptions,
-    reading: arguments.Reading,
     side: opt.Sides = opt.SideOption.right,
     creepage: opt.Creep = None,
     load: opt.Load = None,
@@ -168,7 +156,7 @@ def curve(
     arguments.require_use(context)
     carried = problem.load_or_standard(load)
     if arguments.used(context):
-        patch = problem.main_patch(place.position(reading, side), carried)
+        patch = problem.main_patch(place.position(side), carried)
         separation, start, normal_force = patch.separation, patch.creepage, float(patch.load or 0.0)
         held = f"{place.wheel} on {place.rail}, y = {1e3 * place.y:g} mm, N = {1e-3 * normal_force:.3g} kN"
     else:
@@ -246,7 +234,7 @@ def run(arguments: Sequence[str]) -> None:
     app(args=list(arguments), prog_name="contact")
 
 
-def _title(case: Position) -> str:
+def _title(case: Any) -> str:
     pose = case.pose
     return (
         f"{case.wheel.name or 'wheel'} on {case.rail.name or 'rail'}: y = {1e3 * pose.y:g} mm, "

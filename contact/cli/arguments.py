@@ -11,7 +11,7 @@ import typer
 from contact.cli import options as opt
 from contact.cli import output
 from contact.cli.document import in_effect
-from contact.cli.problem import Pose, Position
+from contact.cli.problem import Pose, Position, Touch, solve_hertzian, solve_position
 from contact.errors import ContactError, warn
 from contact.friction import Friction, as_friction
 from contact.geometry import profile
@@ -97,8 +97,8 @@ class SlidingFriction:
 
 
 @dataclass
-class Wheels:
-    """Wheels on rails."""
+class _OnRails:
+    """Names and lengths of wheels on rails."""
 
     wheel: opt.WheelName = "s1002"
     rail: opt.RailName = "60e1"
@@ -111,10 +111,19 @@ class Wheels:
         """The lengths, by the names of `contact.geometry.wheelset.Pair`."""
         return {"nominal_radius": self.radius, "gauge": self.gauge, "flange_back": self.back_to_back}
 
-    def pair(self, reading: Reading, side: str) -> Pair:
+
+@dataclass
+class Wheels(Reading, _OnRails):
+    """Wheels on rails, and how their profiles are read."""
+
+    @property
+    def profiles(self) -> tuple[profile.Profile, profile.Profile]:
+        """The profiles of wheel and rail."""
+        return self.load(self.wheel, "wheel"), self.load(self.rail, "rail")
+
+    def pair(self, side: str) -> Pair:
         """Return the wheel of a side on its rail."""
-        wheel, rail = reading.load(self.wheel, "wheel"), reading.load(self.rail, "rail")
-        return Pair(wheel, rail, side=cast(Any, side), **self.lengths)
+        return Pair(*self.profiles, side=cast(Any, side), **self.lengths)
 
 
 @dataclass
@@ -126,13 +135,12 @@ class PlaceOptions(Wheels):
     yaw: opt.Yaw = 0.0
     speed: opt.Speed = 20.0
 
-    def position(self, reading: Reading, side: opt.SideOption) -> Position:
+    def position(self, side: opt.SideOption) -> Position:
         """Return the wheelset with its profiles."""
         if self.speed == 0.0:
             warn("speed = 0: the wheelset stands, so it has no creepage, and creep forces and damage are 0")
         return Position(
-            reading.load(self.wheel, "wheel"),
-            reading.load(self.rail, "rail"),
+            *self.profiles,
             ("left", "right") if side is opt.SideOption.both else (side.value,),
             Pose(y=self.y, roll=self.roll, yaw=self.yaw),
             self.speed,
@@ -143,8 +151,7 @@ class PlaceOptions(Wheels):
 
 
 #: Options that do not apply to two given curvatures. Speed and radius do apply; its damage depends on them.
-OF_A_POSITION = {entry.name for group in (PlaceOptions, Reading) for entry in fields(group)} - {"radius", "speed"}
-OF_A_POSITION |= {"side", "conformal"}
+OF_A_POSITION = {entry.name for entry in fields(PlaceOptions)} - {"radius", "speed"} | {"side", "conformal"}
 
 
 @dataclass
@@ -159,6 +166,14 @@ class Amount:
     def given(self) -> Creepage | None:
         """The creepage of the options, instead of that of the rolling wheelset."""
         return None if self.creepage is None else Creepage(*self.creepage)
+
+    def touches(
+        self, case: Position | None, curvatures: tuple[float, float] | None, speed: float, options: dict[str, Any]
+    ) -> list[Touch]:
+        """Return every patch of a position, or the one of two curvatures, solved."""
+        if case is not None:
+            return solve_position(case, self.load, self.penetration, self.given, options)
+        return [solve_hertzian(curvatures, self.load, self.penetration, self.given, options | {"speed": speed})]
 
 
 @dataclass

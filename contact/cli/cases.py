@@ -27,7 +27,7 @@ from contact.study import Case
 
 #: Name → type of its value: the options of `contact solve` that make a case.
 _KINDS: dict[str, Any] = {"name": str}
-for _group in (arguments.PlaceOptions, arguments.Reading, arguments.Amount):
+for _group in (arguments.PlaceOptions, arguments.Amount):
     for _name, _kind in get_type_hints(_group).items():
         _KINDS[_name] = get_args(_kind)[0] if type(None) in get_args(_kind) else _kind
 _KINDS |= {"side": str, "friction": float, "curvatures": tuple[float, float]}
@@ -86,8 +86,7 @@ def cases_of(given: Mapping[str, Any]) -> list[Case]:
     if given["side"] not in list(opt.SideOption):
         raise ContactError(f"side = {given['side']!r} is none of {', '.join(opt.SideOption)}")
     place = arguments.PlaceOptions(**{entry.name: given[entry.name] for entry in fields(arguments.PlaceOptions)})
-    reading = arguments.Reading(**{entry.name: given[entry.name] for entry in fields(arguments.Reading)})
-    position = place.position(reading, opt.SideOption(given["side"]))
+    position = place.position(opt.SideOption(given["side"]))
     pose = position.pose
     found = list(find_patches(position, load, penetration))
     bodies = " on ".join(_shown(given[body]) for body in ("wheel", "rail"))

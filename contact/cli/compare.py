@@ -42,7 +42,6 @@ def compare(
     file: File = None,
     *,
     place: arguments.PlaceOptions,
-    reading: arguments.Reading,
     side: opt.Sides = opt.SideOption.right,
     amount: arguments.Amount,
     friction: opt.Friction = 0.3,
@@ -61,7 +60,7 @@ def compare(
     """
     prepare(out, STUDY)
     arguments.require_use(context)
-    given = vars(place) | vars(reading) | vars(amount)
+    given = vars(place) | vars(amount)
     given |= {"side": side.value, "friction": friction, "curvatures": curvatures}
     problems = cases.cases_of(given) if file is None else cases.read(file, given)
     if not problems:

@@ -36,6 +36,7 @@ _SHOWN = (
     ("contact angle, main patch", "mrad", "contact_angle", 1e3),
     ("peak pressure", "MPa", "max_pressure", 1e-6),
     ("patches", "", "patches", 1),
+    ("status", "", "status", 1.0),
 )
 
 
@@ -49,7 +50,6 @@ def curving(
     height: Height = None,
     wheels: arguments.Wheels,
     speed: opt.Speed = 20.0,
-    reading: arguments.Reading,
     load: opt.Load = None,
     surface: arguments.SlidingFriction,
     methods: arguments.Methods,
@@ -65,9 +65,10 @@ def curving(
             f"--radius {wheels.radius:g} is outside the allowed range [{RADIUS.least:g}, {RADIUS.most:g}]: the wheel has it; "
             "the curve's is --curve-radius"
         )
+    wheel, rail = wheels.profiles
     found = in_curve(
-        reading.load(wheels.wheel, "wheel"),
-        reading.load(wheels.rail, "rail"),
+        wheel,
+        rail,
         curve_radius,
         load=load_or_standard(load),
         speed=speed,

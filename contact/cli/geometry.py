@@ -44,13 +44,14 @@ class WheelsetOptions(arguments.Wheels):
     left_radius: opt.LeftRadius = None
     roll: opt.Rolls = False
 
-    def both(self, reading: arguments.Reading) -> dict[str, Any]:
+    def both(self) -> dict[str, Any]:
         """Return the arguments of `contact_points` and `conicity`."""
+        wheel, rail = self.profiles
         return {
-            "wheel": reading.load(self.wheel, "wheel"),
-            "rail": reading.load(self.rail, "rail"),
-            "left_wheel": self.left_wheel and reading.load(self.left_wheel, "wheel"),
-            "left_rail": self.left_rail and reading.load(self.left_rail, "rail"),
+            "wheel": wheel,
+            "rail": rail,
+            "left_wheel": self.left_wheel and self.load(self.left_wheel, "wheel"),
+            "left_rail": self.left_rail and self.load(self.left_rail, "rail"),
             "left_radius": self.left_radius,
             **self.lengths,
             "roll": self.roll,
@@ -61,7 +62,6 @@ class WheelsetOptions(arguments.Wheels):
 def geometry(
     *,
     wheelset: WheelsetOptions,
-    reading: arguments.Reading,
     reach: opt.Reach = 0.01,
     step: opt.Step = 1e-4,
     output: arguments.Output,
@@ -70,7 +70,7 @@ def geometry(
 
     Example:  contact geometry --wheel 1/40 --rail UIC60 --inclination 1/20 --max 8e-3 --out points.png
     """
-    pair = wheelset.both(reading)
+    pair = wheelset.both()
     n = max(1, round(reach / step))
     found = contact_points(**pair, y=np.linspace(-reach, reach, 2 * n + 1))
     columns = found.columns()
@@ -86,7 +86,6 @@ def geometry(
 def conicity(
     *,
     wheelset: WheelsetOptions,
-    reading: arguments.Reading,
     amplitude: opt.Amplitudes = None,
     curve_radius: opt.CurveRadius = None,
     output: arguments.Output,
@@ -95,7 +94,7 @@ def conicity(
 
     Example:  contact conicity --wheel s1002 --rail 60e2 --gauge 1.432 --out conicity.png
     """
-    pair = wheelset.both(reading)
+    pair = wheelset.both()
     found = conicity_of(**pair, amplitudes=amplitude or None)
     base = wheelset.back_to_back + 2.0 * TAPE_FROM_FLANGE_BACK
     wave = found.wavelength(base, wheelset.radius)

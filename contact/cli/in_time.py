@@ -43,7 +43,6 @@ def in_time(
     motion: File,
     *,
     place: arguments.PlaceOptions,
-    reading: arguments.Reading,
     side: opt.Sides = opt.SideOption.right,
     load: opt.Load = None,
     vertical: opt.Vertical = None,
@@ -75,7 +74,7 @@ def in_time(
     if not heights:
         given |= carried(load, vertical)
     law = surface.law()
-    found = WheelRailPair(place.pair(reading, side.value), **vars(methods)).run(
+    found = WheelRailPair(place.pair(side.value), **vars(methods)).run(
         {**given, **columns},
         friction=law,
         memory=None if friction_memory is None else FrictionMemory(law, *friction_memory),

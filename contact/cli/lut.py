@@ -52,7 +52,6 @@ def lut(
     axis: Axis = None,
     table: Chosen = None,
     wheels: arguments.Wheels,
-    reading: arguments.Reading,
     side: opt.Sides = opt.SideOption.right,
     load: opt.Load = None,
     speed: opt.Speed = 20.0,
@@ -70,7 +69,7 @@ def lut(
     if side is opt.SideOption.both:
         raise ContactError("--side both: a table is that of one wheel; allowed: left, right")
     axes = dict(map(_breakpoints, axis or ["y=-6e-3:6e-3:49", "yaw=-4e-3:4e-3:9"]))
-    pair = WheelRailPair(wheels.pair(reading, side.value), **vars(methods))
+    pair = WheelRailPair(wheels.pair(side.value), **vars(methods))
     options: dict[str, Any] = {"friction": surface.law(), "threads": threads}
     options |= {} if "load" in axes else {"load": load_or_standard(load)}
     options |= {} if "speed" in axes else {"speed": speed}

@@ -25,6 +25,7 @@ _SHOWN = (
     ("rotation of the wheel", "rad/s", "spin", 1.0),
     ("wheelset z", "mm", "z", 1e3),
     ("peak pressure", "MPa", "max_pressure", 1e-6),
+    ("status", "", "status", 1.0),
 )
 
 
@@ -32,7 +33,6 @@ _SHOWN = (
 def rail(
     *,
     place: arguments.PlaceOptions,
-    reading: arguments.Reading,
     side: opt.Sides = opt.SideOption.right,
     load: opt.Load = None,
     vertical: opt.Vertical = None,
@@ -53,10 +53,10 @@ def rail(
     Example:  contact rail --y 2e-3 --torque 8e3
     """
     elastic = ElasticRail(*springs, *preload)
-    case = place.position(reading, side)
+    case = place.position(side)
     rows: list[dict[str, Any]] = []
     for name in case.sides:
-        solver = WheelRailPair(place.pair(reading, name), **vars(methods))
+        solver = WheelRailPair(place.pair(name), **vars(methods))
         velocity = Velocity(forward=place.speed, spin=spin)
         options: dict[str, Any] = {"friction": surface.law(), "rail": elastic, **carried(load, vertical)}
         options["offset"] = WheelOffset(*wheel_offset) if any(wheel_offset) else None

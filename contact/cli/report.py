@@ -14,68 +14,64 @@ from contact.cli.document import flat
 from contact.cli.output import drawing
 from contact.cli.problem import Touch
 from contact.cli.tables import show_table
-from contact.damage import Damage, evaluate
-from contact.geometry.wheelset import Patch
+from contact.damage import evaluate
 from contact.registry import Methods
-from contact.results import Solution
 from contact.study.table import number
 
 #: A row of a table: label, unit, name in the results, factor.
 Quantity = tuple[str, str, str, float]
-PLACE: Sequence[tuple[str, str, Callable[[Patch], float]]] = (
-    ("contact angle", "°", lambda p: math.degrees(p.contact_angle)),
-    ("position y", "mm", lambda p: 1e3 * p.position[1]),
-    ("position z", "mm", lambda p: 1e3 * p.position[2]),
-    ("rolling radius", "mm", lambda p: 1e3 * p.rolling_radius),
-)
-#: Shown if a patch has a share below 1 (`Patch.share`): its forces and damage are multiplied by it.
-SHARE: tuple[str, str, Callable[[Patch], float]] = ("share of the patch", "-", lambda p: p.share)
-CONTACT: Sequence[tuple[str, str, Callable[[Solution], float]]] = (
-    ("longitudinal creepage", "‰", lambda s: 1e3 * s.creepage.longitudinal),
-    ("lateral creepage", "‰", lambda s: 1e3 * s.creepage.lateral),
-    ("spin creepage", "1/m", lambda s: s.creepage.spin),
-    ("normal force", "kN", lambda s: 1e-3 * s.N),
-    ("approach", "µm", lambda s: 1e6 * s.approach),
-    ("peak pressure", "MPa", lambda s: 1e-6 * s.max_pressure),
-    ("contact area", "mm²", lambda s: 1e6 * s.area),
-    ("length along x", "mm", lambda s: 1e3 * s.length),
-    ("width along y", "mm", lambda s: 1e3 * s.width),
-    ("Fx on the wheel", "kN", lambda s: 1e-3 * s.Fx),
-    ("Fy on the wheel", "kN", lambda s: 1e-3 * s.Fy),
-    ("Mz on the wheel", "N m", lambda s: s.Mz),
-    ("used friction", "-", lambda s: s.used_friction),
-    ("slip area", "%", lambda s: 100.0 * s.slip_ratio),
-)
-DAMAGE: Sequence[tuple[str, str, Callable[[Damage], float]]] = (
-    ("T-gamma", "N", lambda d: d.T_gamma),
-    ("T-gamma with spin", "N", lambda d: d.T_gamma_spin),
-    ("dissipation", "N", lambda d: d.dissipation),
-    ("Pearce-Sherratt", "mm²/km", lambda d: 1e9 * d.pearce_sherratt),
-    ("USFD volume per patch area", "mm³/km/mm²", lambda d: 1e6 * d.usfd),
-    ("Burstow", "1e-6/axle", lambda d: 1e6 * d.burstow),
-    ("surface fatigue index", "-", lambda d: d.fatigue_index),
-)
-#: Quantities that need traction and slip over the patch.
-LOCAL_DAMAGE: Sequence[tuple[str, str, Callable[[Damage], float]]] = (
-    ("Archard volume", "mm³/km", lambda d: 1e12 * d.archard.volume),
-    ("Archard depth", "µm/km", lambda d: 1e9 * d.archard.depth_max),
-    ("largest stress index", "MPa", lambda d: 1e-6 * d.stress_index.max),
-    ("largest energy index", "MPa", lambda d: 1e-6 * d.energy_index.max),
+#: Of a patch; what its results do not have is left out.
+_SHOWN: Sequence[Quantity] = (
+    ("contact angle", "°", "contact_angle", math.degrees(1.0)),
+    ("position y", "mm", "position.1", 1e3),
+    ("position z", "mm", "position.2", 1e3),
+    ("rolling radius", "mm", "rolling_radius", 1e3),
+    ("share of the patch", "-", "share", 1.0),
+    ("longitudinal creepage", "‰", "creepage.longitudinal", 1e3),
+    ("lateral creepage", "‰", "creepage.lateral", 1e3),
+    ("spin creepage", "1/m", "creepage.spin", 1.0),
+    ("normal force", "kN", "N", 1e-3),
+    ("approach", "µm", "approach", 1e6),
+    ("peak pressure", "MPa", "max_pressure", 1e-6),
+    ("contact area", "mm²", "area", 1e6),
+    ("length along x", "mm", "length", 1e3),
+    ("width along y", "mm", "width", 1e3),
+    ("Fx on the wheel", "kN", "Fx", 1e-3),
+    ("Fy on the wheel", "kN", "Fy", 1e-3),
+    ("Mz on the wheel", "N m", "Mz", 1.0),
+    ("used friction", "-", "used_friction", 1.0),
+    ("slip area", "%", "slip_ratio", 100.0),
+    ("status", "", "status", 1.0),
+    ("T-gamma", "N", "damage.T_gamma", 1.0),
+    ("T-gamma with spin", "N", "damage.T_gamma_spin", 1.0),
+    ("dissipation", "N", "damage.dissipation", 1.0),
+    ("Pearce-Sherratt", "mm²/km", "damage.pearce_sherratt", 1e9),
+    ("USFD volume per patch area", "mm³/km/mm²", "damage.usfd", 1e6),
+    ("Burstow", "1e-6/axle", "damage.burstow", 1e6),
+    ("surface fatigue index", "-", "damage.fatigue_index", 1.0),
+    ("Archard volume", "mm³/km", "damage.archard_volume", 1e12),
+    ("Archard depth", "µm/km", "damage.archard_depth_max", 1e9),
+    ("largest stress index", "MPa", "damage.stress_index_max", 1e-6),
+    ("largest energy index", "MPa", "damage.energy_index_max", 1e-6),
 )
 
 
 def show_columns(
     title: str, name: str, rows: Sequence[Mapping[str, Any]], quantities: Sequence[Quantity], console: Console
 ) -> None:
-    """Print rows, which `name` names, side by side: their quantities and the status."""
-    cells = [[label, unit, *(number(factor * row[key]) for row in rows)] for label, unit, key, factor in quantities]
-    cells.append(["status", "", *(row["status"].lower().replace("_", " ") for row in rows)])
-    show_table(title, side_by_side(row[name] for row in rows), cells, console)
+    """Print rows, which `name` names, side by side: those of the quantities that they have."""
+    cells = [
+        [label, unit, *(_cell(row[key], factor) for row in rows)]
+        for label, unit, key, factor in quantities
+        if key in rows[0]
+    ]
+    show_table(title, [(head, "") for head in ("quantity", "unit", *(row[name] for row in rows))], cells, console)
 
 
-def side_by_side(names: Iterable[str]) -> list[tuple[str, str]]:
-    """Return the headings of a table of quantities with a column for each name."""
-    return [(name, "") for name in ("quantity", "unit", *names)]
+def _cell(value: Any, factor: float) -> str:
+    if isinstance(value, str):
+        return value.lower().replace("_", " ")
+    return number(None if value is None else factor * value)
 
 
 def deliver_patches(
@@ -91,29 +87,20 @@ def deliver_patches(
         output.without_contact()
     output.deliver(
         {"patches": patches},
-        show=lambda console: show(touches, title, radius, console),
+        show=lambda console: _show(patches, [t.name for t in touches], title, console),
         rows=lambda: [flat(row) for row in patches],
         figure=figure or (lambda: drawing().patch([t.solution for t in touches], [t.name for t in touches])),
     )
 
 
-def show(touches: Sequence[Touch], title: str, wheel_radius: float, console: Console) -> None:
+def _show(patches: Sequence[dict[str, Any]], names: Sequence[str], title: str, console: Console) -> None:
     """Print the patches side by side: place, contact, damage."""
-    if not touches:
+    if not patches:
         console.print(f"[bold]{escape(title)}[/bold]\nno contact: all forces are zero")
         return
-    cells: list[list[str]] = []
-    if touches[0].patch is not None:
-        patches = [t.patch for t in touches if t.patch is not None]
-        for label, unit, value in (*PLACE, *((SHARE,) if any(p.share < 1.0 for p in patches) else ())):
-            cells.append([label, unit, *(number(value(p)) for p in patches)])
-    for label, unit, of_solution in CONTACT:
-        cells.append([label, unit, *(number(of_solution(t.solution)) for t in touches)])
-    cells.append(["status", "", *(t.solution.status.name.lower().replace("_", " ") for t in touches)])
-    damages = [evaluate(t.solution, wheel_radius) for t in touches]
-    for label, unit, of_damage in (*DAMAGE, *(LOCAL_DAMAGE if damages[0].has_fields else ())):
-        cells.append([label, unit, *(number(of_damage(d)) for d in damages)])
-    show_table(title, side_by_side(touch.name for touch in touches), cells, console)
+    rows = [{"patch": name, **flat(row)} for name, row in zip(names, patches, strict=True)]
+    whole = all(row.get("share", 1.0) >= 1.0 for row in rows)
+    show_columns(title, "patch", rows, [q for q in _SHOWN if not (whole and q[2] == "share")], console)
 
 
 def data(touch: Touch, wheel_radius: float) -> dict[str, Any]:
@@ -131,8 +118,9 @@ def data(touch: Touch, wheel_radius: float) -> dict[str, Any]:
             "rolling_radius": p.rolling_radius,
             "share": p.share,
         }
-    names = "N Fx Fy Mz approach max_pressure area slip_ratio length width normal_stiffness power_per_metre n_patches gap_error"
-    content |= {name: getattr(s, name) for name in names.split()}
+    names = "N Fx Fy Mz approach max_pressure area slip_ratio used_friction length width"
+    more = "normal_stiffness power_per_metre n_patches gap_error"
+    content |= {name: getattr(s, name) for name in f"{names} {more}".split()}
     content["status"] = s.status.name
     content["creepage"] = {"longitudinal": c.longitudinal, "lateral": c.lateral, "spin": c.spin}
     content |= {"friction": s.friction, "speed": s.speed, "normal": s.normal, "tangential": s.tangential}

@@ -19,7 +19,6 @@ def roller(
     roller_radius: opt.RollerRadius,
     *,
     place: arguments.PlaceOptions,
-    reading: arguments.Reading,
     spin: opt.Spin = None,
     offset: opt.Offset = 0.0,
     load: opt.Load = None,
@@ -32,8 +31,8 @@ def roller(
 
     Example:  contact roller 0.6 --y 3e-3 --load 60e3 --spin -43.5
     """
-    case = place.position(reading, opt.SideOption.right)
-    rig = RollerRig(place.pair(reading, "right"), roller_radius, offset=offset, **vars(methods))
+    case = place.position(opt.SideOption.right)
+    rig = RollerRig(place.pair("right"), roller_radius, offset=offset, **vars(methods))
     velocity = Velocity(forward=place.speed, spin=spin)
     found = rig.solve(case.pose, velocity, **carried(load, vertical), friction=surface.law())
     touches = [

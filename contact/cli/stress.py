@@ -9,17 +9,15 @@ import numpy as np
 import typer
 from rich.console import Console
 
-from contact.cli import arguments, problem
+from contact.cli import arguments
 from contact.cli import options as opt
 from contact.cli.document import flat
 from contact.cli.output import drawing, reported
 from contact.cli.problem import Touch
-from contact.cli.report import side_by_side
-from contact.cli.tables import show_table
+from contact.cli.report import Quantity, show_columns
 from contact.errors import require_number
 from contact.stress import Endurance, SurfaceLoad, dang_van, largest
 from contact.stress.field import CRITERIA, require_criterion
-from contact.study.table import number
 
 #: Depths for Dang Van's criterion over the radius of a circle with the contact's area.
 _DEPTHS = np.linspace(0.0, 1.5, 16)
@@ -30,7 +28,6 @@ def stress(
     context: typer.Context,
     *,
     place: arguments.PlaceOptions,
-    reading: arguments.Reading,
     side: opt.Sides = opt.SideOption.right,
     amount: arguments.Amount,
     curvatures: opt.Curvatures = None,
@@ -51,13 +48,8 @@ def stress(
     line = None if endurance is None else Endurance(*endurance)
     options = {"friction": surface.law(), **vars(methods)}
     arguments.require_use(context)
-    if curvatures is not None:
-        options["speed"] = place.speed
-        touches = [problem.solve_hertzian(curvatures, amount.load, amount.penetration, amount.given, options)]
-    else:
-        case = place.position(reading, side)
-        touches = problem.solve_position(case, amount.load, amount.penetration, amount.given, options)
-    touches = [touch for touch in touches if touch.solution.N > 0.0]
+    case = None if curvatures is not None else place.position(side)
+    touches = [one for one in amount.touches(case, curvatures, place.speed, options) if one.solution.N > 0.0]
     found = [stresses(touch, body, slope, line) for touch in touches]
     if not touches:
         output.without_contact()
@@ -68,7 +60,7 @@ def stress(
 
     output.deliver(
         {"patches": found},
-        show=lambda console: _show(touches, found, body, console),
+        show=lambda console: _show(found, body, console),
         rows=lambda: [flat(row) for row in found],
         figure=figure,
     )
@@ -89,14 +81,13 @@ def stresses(touch: Touch, body: str, slope: float, line: Endurance | None) -> d
     return content
 
 
-def _show(touches: Sequence[Touch], found: Sequence[dict[str, Any]], body: str, console: Console) -> None:
-    if not touches:
+def _show(found: Sequence[dict[str, Any]], body: str, console: Console) -> None:
+    if not found:
         console.print("no contact: no stress")
         return
-    cells: list[list[str]] = []
+    shown: list[Quantity] = []
     for name in (*CRITERIA, "dang_van"):
-        cells.append([name.replace("_", " "), "MPa", *(number(1e-6 * one[name]["value"]) for one in found)])
-        cells.append(["  depth", "mm", *(number(1e3 * one[name]["z"]) for one in found)])
-    if "passages" in found[0]:
-        cells.append(["passages to failure", "", *(number(one["passages"]) for one in found)])
-    show_table(f"Largest stresses in the {body}", side_by_side(touch.name for touch in touches), cells, console)
+        shown.append((name.replace("_", " "), "MPa", f"{name}.value", 1e-6))
+        shown.append(("  depth", "mm", f"{name}.z", 1e3))
+    shown.append(("passages to failure", "", "passages", 1.0))
+    show_columns(f"Largest stresses in the {body}", "name", [flat(one) for one in found], shown, console)

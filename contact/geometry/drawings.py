@@ -12,7 +12,7 @@ from typing import Any
 
 import numpy as np
 
-from contact.errors import ContactError
+from contact.errors import ContactError, optional
 from contact.geometry.formats import Choice, Content, chosen, points_in
 from contact.geometry.inspection import Fault, Finding, Points
 from contact.reading.text import content
@@ -27,10 +27,7 @@ def dxf(path: Path, choice: Choice) -> Content:
 
     A drawing of several such lines has one chosen by `section`, the longest first.
     """
-    try:
-        import ezdxf
-    except ImportError:
-        raise ImportError("DXF drawings need ezdxf: pip install 'wheelrail-contact[dxf]'") from None
+    ezdxf = optional("ezdxf", "DXF drawings need", "dxf")
     try:
         drawing = ezdxf.readfile(path)
     except (OSError, ezdxf.DXFError, ValueError, TypeError, KeyError, IndexError, StopIteration) as error:
@@ -126,10 +123,7 @@ def _refined(points: Points, spacing: float) -> Points:
 
 def xlsx(path: Path, choice: Choice) -> Content:
     """Workbooks: the rows of a sheet as those of a file of columns. `section` is the number of the sheet with numbers."""
-    try:
-        import openpyxl
-    except ImportError:
-        raise ImportError("workbooks need openpyxl: pip install 'wheelrail-contact[xlsx]'") from None
+    openpyxl = optional("openpyxl", "workbooks need", "xlsx")
     if not content(path).startswith(b"PK"):
         raise ContactError(f"path = {str(path)!r} is no .xlsx workbook")
     try:

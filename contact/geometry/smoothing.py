@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 
 from contact.arrays import Array
-from contact.errors import ContactError, require_number
+from contact.errors import ContactError, optional, require_number
 
-_NEEDS = "smoothing needs scipy: pip install 'wheelrail-contact[profiles]'"
+
+def _interpolate() -> Any:
+    return optional("scipy.interpolate", "smoothing needs", "profiles")
 
 
 def smoothed(y: Array, z: Array, tolerance: float) -> tuple[Array, Array, Array]:
@@ -36,16 +40,12 @@ def smoothed(y: Array, z: Array, tolerance: float) -> tuple[Array, Array, Array]
         If scipy is not installed.
     """
     require_number("smoothing", tolerance, 0.0, 1e-3)
+    scipy, u = _interpolate(), _chords(y, z)
     try:
-        from scipy.interpolate import splev, splprep
-    except ImportError:
-        raise ImportError(_NEEDS) from None
-    u = _chords(y, z)
-    try:
-        spline, _ = splprep([y, z], u=u, s=y.size * tolerance**2, k=3)
+        spline, _ = scipy.splprep([y, z], u=u, s=y.size * tolerance**2, k=3)
     except (TypeError, ValueError, OverflowError) as error:
         raise ContactError(f"smoothing = {tolerance:g}: no spline was found through these points: {error}") from None
-    (y, z), (dy, dz) = splev(u, spline), splev(u, spline, der=1)
+    (y, z), (dy, dz) = scipy.splev(u, spline), scipy.splev(u, spline, der=1)
     return y, z, np.unwrap(np.arctan2(dz, dy))
 
 
@@ -119,11 +119,7 @@ def _require_several(given: str, y: Array) -> None:
 
 def _spline(y: Array, z: Array, u: Array, weights: Array | None, penalty: float) -> tuple[Array, Array, Array]:
     """Return points and tangents of the smoothing spline over `u`, lengths near 1: scipy looks at absolute numbers."""
-    try:
-        from scipy.interpolate import make_smoothing_spline
-    except ImportError:
-        raise ImportError(_NEEDS) from None
-    splines = [make_smoothing_spline(u, values, weights, lam=penalty) for values in (y, z)]
+    splines = [_interpolate().make_smoothing_spline(u, values, weights, lam=penalty) for values in (y, z)]
     dy, dz = (spline.derivative()(u) for spline in splines)
     return splines[0](u), splines[1](u), np.unwrap(np.arctan2(dz, dy))
 

@@ -8,9 +8,8 @@ the points that slide on each other, are those along the normal of the plane at 
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
-from contact.arrays import Array
+from contact.arrays import Array, connected
 from contact.geometry.records import Pose
 from contact.geometry.surfaces import SurfacePair, SurfacePatch
 from contact.geometry.surfaces.frame import Frame
@@ -23,7 +22,6 @@ from contact.pair.curved import Elements
 #: Steps that turn points of the wheel to the plane of the reference point, and rows beyond the elements of the plane.
 _TURNS, _BEYOND = 3, 3
 _ABSENT = 1e-3  # [m] by which elements without a surface lie above the highest other one
-_MIRROR = np.array([1.0, -1.0, 1.0])
 
 
 def elements(pair: SurfacePair, patch: SurfacePatch, pose: Pose, bodies: Outlines, step: float) -> Elements | None:
@@ -41,8 +39,9 @@ def elements(pair: SurfacePair, patch: SurfacePatch, pose: Pose, bodies: Outline
     tilt = np.arctan2(normal[:, 0], -normal[:, 1])
     low, high = plane[0] - _BEYOND * dy, plane[-1] + _BEYOND * dy
     known = np.isfinite(middle).all(axis=1) & (middle[:, 0] >= low) & (middle[:, 0] <= high)
-    rows = _run(known, int(np.abs(s).argmin()))
-    if rows.size < 2:
+    first = int(np.abs(s).argmin())
+    rows = connected(known[:-1] & known[1:], first)
+    if rows.stop - rows.start < 2:
         return None
     s, y, tilt = s[rows], middle[rows, 0], tilt[rows]
     h = distance(pair, pose, bodies, frame, gap.x, y, s, step)
@@ -59,24 +58,9 @@ def elements(pair: SurfacePair, patch: SurfacePatch, pose: Pose, bodies: Outline
     h = h * cosine[:, None]
     approach = -float(h.min())
     angle = frame.turn[0] + tilt
-    if not left:
-        return Elements(CurvedGap(gap.x, s, h + approach, y, np.tan(tilt)), approach, places[0], places[1], axes, angle)
-    back = slice(None, None, -1)
-    curved = CurvedGap(gap.x, -s[back], h[back] + approach, -y[back], -np.tan(tilt)[back])
-    on_rail, on_wheel = (place[back] * _MIRROR for place in places)
-    return Elements(curved, approach, on_rail, on_wheel, _MIRROR[:, None] * axes[back] * _MIRROR, -angle[back])
-
-
-def _run(known: NDArray[np.bool_], first: int) -> NDArray[np.int64]:
-    """Return the places of the run of true values around one; none without it."""
-    if not known[first]:
-        return np.empty(0, dtype=np.int64)
-    low = high = first
-    while low > 0 and known[low - 1]:
-        low -= 1
-    while high < known.size - 1 and known[high + 1]:
-        high += 1
-    return np.arange(low, high + 1, dtype=np.int64)
+    curved = CurvedGap(gap.x, s, h + approach, y, np.tan(tilt))
+    found = Elements(curved, approach, places[0], places[1], axes, angle)
+    return found.mirrored if left else found
 
 
 def _on_rail(rail: Rail, outline: Outline, frame: Frame, s: Array) -> tuple[Array, Array]:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from contact.errors import ContactError
 from contact.inp.controls import WORDS, Digit
 from contact.inp.reasons import REFUSED, REFUSED_ON_GRID
 
@@ -47,12 +46,3 @@ def _cell(digit: Digit, value: int, module: int) -> str:
     if on_grid is not None:
         return f"{meaning}: **refused**, but with `--fast`"
     return meaning
-
-
-def with_part(text: str, name: str, part: str) -> str:
-    """Return a page with the part between its two marks replaced."""
-    begin, end = f"<!-- {name}: written by make bank -->\n", f"<!-- end of {name} -->"
-    if begin not in text or end not in text:
-        raise ContactError(f"the page has no marks of the part {name!r}")
-    head, rest = text.split(begin, 1)
-    return f"{head}{begin}{part}{end}{rest.split(end, 1)[1]}"

@@ -8,7 +8,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from contact.arrays import Array
+from contact.arrays import Array, connected
 from contact.geometry.surfaces import SurfacePair
 from contact.geometry.surfaces.frame import Frame
 from contact.geometry.surfaces.spline import slopes
@@ -83,8 +83,8 @@ class Rail:
         first = int(np.hypot(across, height)[:, x.size // 2].argmin())
         out = np.empty((y.size, x.size))
         for k in range(x.size):
-            low, high = _rising(across[:, k], first)
-            out[:, k] = np.interp(y, across[low:high, k], height[low:high, k], left=np.nan, right=np.nan)
+            rising = connected(np.diff(across[:, k]) > 0.0, first)
+            out[:, k] = np.interp(y, across[rising, k], height[rising, k], left=np.nan, right=np.nan)
         return out
 
     def bent(self, frame: Frame, x: Array, height: Array) -> Array:
@@ -113,13 +113,6 @@ class Rail:
     def first(self, frame: Frame, k: int) -> float:
         """Return the place across a frame of point `k` of the outline at x = 0 [m]."""
         return float(across(self.here, frame, self.place)[k])
-
-
-def _rising(across: Array, first: int) -> tuple[int, int]:
-    """Return the range of points around one in which the places across increase."""
-    steps = np.diff(across) > 0.0
-    before, behind = np.flatnonzero(~steps[:first]), np.flatnonzero(~steps[first:])
-    return (int(before[-1]) + 1 if before.size else 0), (first + int(behind[0]) + 1 if behind.size else across.size)
 
 
 class _Sections(NamedTuple):

@@ -13,7 +13,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from contact.errors import ModelWarning, doubt, warn
-from contact.kernels.tangential.table import LOG_ASPECT_MAX, LOG_ASPECT_MIN
 
 
 class Usual(NamedTuple):
@@ -96,105 +95,6 @@ def doubt_combined(coupling: float) -> None:
             f"material.coupling = {coupling:.3g}: the stresses of both bodies are those for the combined Poisson's ratio; "
             "give poisson_ratio of the body",
             ModelWarning,
-        )
-
-
-def _once(told: set[str], reason: str, text: str) -> None:
-    """Warn for a reason that is not yet in `told`, the reasons for which an object has warned.
-
-    The text has a number that changes from call to call, so Python would show it at every call of a loop.
-    """
-    if reason not in told:
-        warn(text, ModelWarning)
-        told.add(reason)
-
-
-def about_bend(largest: float) -> str:
-    """Return what strips leave out where the contact angle changes by more than `largest` [rad] over a patch."""
-    return (
-        f"the contact angle changes by more than {math.degrees(largest):.0f} degrees over the patch, which strips take as "
-        "plane: a lateral force of the pressure of up to 0.1 of the load is left out, and creep forces change by 0.03 of "
-        "friction times load in the median. A conformal surface has both, but the influence numbers of a plane: 0.02 to 0.06 "
-        "of friction times load in the median (limits.md)"
-    )
-
-
-def about_gap(limit: float) -> str:
-    """Return what a `gap_error` above `limit` means."""
-    return (
-        f"the pressure leaves gaps or overlaps inside the patch, or surfaces are no parabolas along x; above {limit:g} the "
-        "largest pressure may be more than 5 % wrong (limits.md)"
-    )
-
-
-def about_beyond(largest: float) -> str:
-    """Return what is wrong where more than a share `largest` of the load is on shapes beyond the table of the method."""
-    return (
-        f"more than {largest:g} of the load is on shapes with a/b beyond {math.exp(LOG_ASPECT_MIN):.3g} to "
-        f"{math.exp(LOG_ASPECT_MAX):.3g}, the ends of the half space's table of creep forces ('fastrip_mapped', 'table'), "
-        "or beyond 0.02 to 50, those of Kalker's coefficients (other methods), which count for them: "
-        "forces may be more than 0.01 of friction times load off, above 50 more than 0.1 (limits.md)"
-    )
-
-
-#: Of a force that was found [N]: a fall of the wheel through its rail by a millimetre has 4e6.
-USUAL_N = Usual(1e6, "a wheel carries 20 to 150 kN; do wheel and rail overlap by millimetres?")
-
-
-def doubt_normal_force(force: float, told: set[str], called: str = "N") -> None:
-    """Warn of a force [N] that was found for a given height or approach and that no wheel carries."""
-    if force > USUAL_N.largest and called not in told:
-        told.add(called)
-        doubt(called, force, USUAL_N.largest, USUAL_N.hint)
-
-
-def doubt_beyond(beyond: float, largest: float, told: set[str]) -> None:
-    """Warn of a share `beyond` of the load, above `largest`, on shapes beyond the table of creep forces."""
-    if beyond > largest:
-        _once(told, "beyond", f"beyond = {beyond:.2g}: {about_beyond(largest)}")
-
-
-def doubt_strips(bend: float, largest: float, conformal: bool, told: set[str]) -> None:
-    """Warn of a patch over which the contact angle changes by `bend` [rad], more than `largest`, solved on strips."""
-    if bend > largest:
-        limit = f"{math.degrees(largest):.0f}°"
-        _once(
-            told,
-            "bent, conformal" if conformal else "bent",
-            f"the contact angle changes by {math.degrees(bend):.0f}° over the patch. "
-            + (
-                f"Above {limit} strips with conformal = True, which have the influence numbers of a plane, are 0.02 to 0.06 "
-                "of friction times load off in the median, 0.27 at most, and 15 % in the largest pressure (limits.md); "
-                "normal = tangential = 'halfspace' has those of the bent surface"
-                if conformal
-                else f"It is solved as plane. Above {limit} a lateral force of the pressure of up to 0.1 of the load is left "
-                "out, and creep forces change by 0.03 of friction times load in the median (limits.md); "
-                "conformal = True has both"
-            ),
-        )
-
-
-def doubt_gap(gap_error: float, limit: float, told: set[str], reason: str = "gap") -> None:
-    """Warn of a `gap_error` above the limit of its method."""
-    if gap_error > limit:
-        _once(
-            told,
-            reason,
-            f"gap_error = {gap_error:.2g}: the pressure leaves gaps or overlaps inside the patch, or surfaces are no parabolas "
-            f"along x. Above {limit:g} the largest pressure may be more than 5 % wrong (limits.md); normal = tangential = "
-            "'halfspace' solves the patch, HalfspacePair the surfaces",
-        )
-
-
-def doubt_rows(fit_error: float, limit: float, told: set[str]) -> None:
-    """Warn of a separation whose parabolas along x are by more than the limit of `gap_error` off what a search found."""
-    if fit_error > limit:
-        _once(
-            told,
-            "rows",
-            f"the wheel's rows along x are no parabolas, as the separation takes them: their slope is {fit_error:.2g} off. "
-            f"Above {limit:g} the largest pressure may be more than 5 % wrong, and creep forces by 0.02 of friction times load "
-            "(limits.md); HalfspacePair of a SurfacePair takes the surfaces as they are",
         )
 
 

@@ -12,7 +12,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from contact.arrays import Array
+from contact.arrays import Array, connected
 from contact.geometry.surfaces import SurfacePair, SurfacePatch
 from contact.geometry.surfaces.frame import Frame
 from contact.geometry.surfaces.slices import SliceCurve
@@ -46,6 +46,15 @@ class Elements(NamedTuple):
     on_wheel: Array
     axes: Array
     angle: Array
+
+    @property
+    def mirrored(self) -> Elements:
+        """The same on the other side of the track."""
+        back, gap = slice(None, None, -1), self.gap
+        turned = CurvedGap(gap.x, -gap.y[back], gap.h[back], -gap.place[back], -gap.tilt[back])
+        on_rail, on_wheel = (points[back] * _MIRROR for points in (self.on_rail, self.on_wheel))
+        axes = _MIRROR[:, None] * self.axes[back] * _MIRROR
+        return Elements(turned, self.approach, on_rail, on_wheel, axes, -self.angle[back])
 
 
 def elements(pair: SurfacePair, patch: SurfacePatch, bent: bool) -> Elements:
@@ -90,14 +99,9 @@ def _section(pair: SurfacePair, frame: Frame, station: float) -> tuple[Array, Ar
     curve = SliceCurve(across[new], "section")
     curve.connect(np.empty(0))
     v, r = curve.at(np.linspace(0.0, curve.length, _FINE * int(new.sum())))
-    low = high = int(np.argmin(np.abs(v) + np.abs(r)))
-    steep = math.tan(_STEEPEST)
-    rising = (np.diff(v) > 0.0) & (np.abs(np.diff(r)) < steep * np.diff(v))
-    while low > 0 and rising[low - 1]:
-        low -= 1
-    while high < v.size - 1 and rising[high]:
-        high += 1
-    return v[low : high + 1], r[low : high + 1]
+    rising = (np.diff(v) > 0.0) & (np.abs(np.diff(r)) < math.tan(_STEEPEST) * np.diff(v))
+    part = connected(rising, int(np.argmin(np.abs(v) + np.abs(r))))
+    return v[part], r[part]
 
 
 def _middle(
@@ -146,10 +150,6 @@ def _finished(
     rail = on_rail[:, None, :] + x[:, None] * frame.axes[0]
     wheel = rail - h[..., None] * axes[:, None, 2]
     approach = -float(h.min())
-    turn = frame.turn[0] + tilt
-    if not left:
-        return Elements(CurvedGap(x, rows, h + approach, place, np.tan(tilt)), approach, rail, wheel, axes, turn)
-    back = slice(None, None, -1)
-    gap = CurvedGap(x, -rows[back], h[back] + approach, -place[back], -np.tan(tilt)[back])
-    mirrored = _MIRROR[:, None] * axes[back] * _MIRROR
-    return Elements(gap, approach, rail[back] * _MIRROR, wheel[back] * _MIRROR, mirrored, -turn[back])
+    gap = CurvedGap(x, rows, h + approach, place, np.tan(tilt))
+    found = Elements(gap, approach, rail, wheel, axes, frame.turn[0] + tilt)
+    return found.mirrored if left else found

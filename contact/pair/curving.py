@@ -16,11 +16,10 @@ from contact.geometry.profile import Profile
 from contact.geometry.records import Pose, Velocity
 from contact.geometry.wheelset import Pair
 from contact.inputs.options import FLANGE_BACK, GAUGE, RADIUS
-from contact.inputs.plausibility import doubt_gap
 from contact.pair.solution import PairSolution
 from contact.pair.wheel_rail import WheelRailPair
 from contact.registry import DEFAULT_NORMAL, lookup
-from contact.results import Status
+from contact.results import Status, doubt_answer
 
 GRAVITY = 9.81  # [m/s²]
 RAIL_DISTANCE = 1.5  # of the rails' centres, over which cant is measured [m]
@@ -172,7 +171,7 @@ def in_curve(
         if np.abs(left_over).max() < _TOLERANCE * weight:
             inner, outer = both
             limit = lookup("normal", options.get("normal", DEFAULT_NORMAL)).gap_limit
-            doubt_gap(max(inner.gap_error, outer.gap_error), limit, set())
+            doubt_answer(set(), limit, gap_error=max(inner.gap_error, outer.gap_error))
             return Curving(
                 y=float(x[0]),
                 yaw=float(x[1]),

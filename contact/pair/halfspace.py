@@ -62,12 +62,12 @@ class Instant(NamedTuple):
     def of(
         cls,
         pose: Pose,
-        velocity: Velocity | None,
-        station: float,
-        rotation: float,
-        irregularity: Irregularity | None,
-        offset: WheelOffset | None,
-        friction: Any,
+        velocity: Velocity | None = None,
+        station: float = 0.0,
+        rotation: float = 0.0,
+        irregularity: Irregularity | None = None,
+        offset: WheelOffset | None = None,
+        friction: Any = 0.3,
     ) -> Instant:
         """Return the instant, with what is missing at rest and in place."""
         velocity = Velocity() if velocity is None else velocity
@@ -75,6 +75,17 @@ class Instant(NamedTuple):
         require_motion(pose, velocity, irregularity)
         station, rotation = require_number("station", station), require_number("rotation", rotation)
         return cls(pose, velocity, station, rotation, irregularity, _STRAIGHT if offset is None else offset, friction)
+
+
+class Given(NamedTuple):
+    """What is given of height, forces and springs, as arguments of `HalfspacePair.solve`."""
+
+    load: float | None = None
+    penetration: float | None = None
+    vertical: float | None = None
+    force: float | None = None
+    torque: float | None = None
+    rail: ElasticRail | None = None
 
 
 class HalfspacePair(AnyPair):
@@ -150,42 +161,33 @@ class HalfspacePair(AnyPair):
             force jumps over a `load`, the status is NOT_CONVERGED instead.
         """
         at = Instant.of(pose, velocity, station, rotation, irregularity, offset, friction)
-        return self._given(at, load, penetration, vertical, force, torque, rail)
+        return self._given(at, Given(load, penetration, vertical, force, torque, rail))
 
-    def _given(
-        self,
-        at: Instant,
-        load: float | None,
-        penetration: float | None,
-        vertical: float | None,
-        force: float | None,
-        torque: float | None,
-        rail: ElasticRail | None,
-    ) -> PairSolution:
+    def _given(self, at: Instant, given: Given) -> PairSolution:
         """Return the solution for what is given of height, forces and springs."""
         self._begin()
-        given = {"load": load, "penetration": penetration, "vertical": vertical}
-        if sum(amount is not None for amount in given.values()) > 1:
-            raise ContactError(f"of {given} only one may be given")
+        amounts, rail = given._asdict(), given.rail
+        amounts = {name: amounts[name] for name in ("load", "penetration", "vertical")}
+        if sum(amount is not None for amount in amounts.values()) > 1:
+            raise ContactError(f"of {amounts} only one may be given")
         require_kind("rail", rail, ElasticRail | None)
         require_kind("offset", at.offset, WheelOffset)
 
         def placed(dy: float, dz: float, now: Instant) -> PairSolution:
             moved = replace(now.irregularity, y=now.irregularity.y + dy, z=now.irregularity.z + dz)
-            return self._at(now._replace(irregularity=moved), load, penetration, vertical)
+            return self._at(now._replace(irregularity=moved), **amounts)
 
         def turning(velocity: Velocity) -> PairSolution:
             now = at._replace(velocity=velocity)
             if rail is None:
-                return self._at(now, load, penetration, vertical)
-            fixed = all(amount is None for amount in given.values())
+                return self._at(now, **amounts)
+            fixed = all(amount is None for amount in amounts.values())
             return balanced(lambda dy, dz: placed(dy, dz, now), rail, fixed)
 
-        if force is None and torque is None:
+        if given.force is None and given.torque is None:
             return turning(at.velocity)
-        return drive(
-            turning, at.velocity, self.pair.nominal_radius, self.pair.material.shear_modulus, force, torque, self._pull
-        )
+        modulus = self.pair.material.shear_modulus
+        return drive(turning, at.velocity, self.pair.nominal_radius, modulus, given.force, given.torque, self._pull)
 
     def _begin(self) -> None:
         """Forget where the searches of the last call have ended: penetration [m], and share of the normal forces."""

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from contact.arrays import Array, require_numbers
+from contact.arrays import Array, broadcast, require_numbers
 from contact.errors import ContactError
 from contact.forces import cores
 from contact.friction import Friction
@@ -145,11 +145,8 @@ def over_poses(
     }
     for name, values in columns.items():
         doubt_values(name, values)
-    try:
-        spread = np.broadcast_arrays(limited, *columns.values())
-    except ValueError:
-        shapes = ", ".join(str(values.shape) for values in (limited, *columns.values()))
-        raise ContactError(f"shapes of the poses, loads and creepages do not broadcast: {shapes}") from None
+    height = {Height.GIVEN: "z", Height.LOAD: "load", Height.PENETRATION: "penetration"}[mode]
+    spread = broadcast({height: limited, **columns})
     shape = spread[0].shape
     amount, y_, roll_, yaw_, vx, vy, phi, V, mu = (np.ravel(values) for values in spread)
     given = np.zeros(amount.size, GIVEN)
@@ -190,5 +187,4 @@ def over_poses(
     names = {name: _OTHER_NAMES.get(name, name) for name in PoseForces.__dataclass_fields__}
     made: dict[str, Any] = {name: np.ascontiguousarray(found[of]).reshape(shape) for name, of in names.items()}
     inputs = {name.rpartition(".")[2]: values for name, values in columns.items()}
-    height = {Height.GIVEN: "z", Height.LOAD: "load", Height.PENETRATION: "penetration"}[mode]
     return PoseForces(**made)._with_inputs({**inputs, height: limited})

@@ -14,13 +14,11 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from contact.arrays import Array
+from contact.arrays import Array, connected
 from contact.errors import ContactError, require_number
-from contact.friction import Friction
-from contact.geometry.flexible import WheelOffset
-from contact.geometry.records import Irregularity, Pose, Velocity
+from contact.geometry.records import Pose, Velocity
 from contact.geometry.surfaces import SurfacePair, SurfacePatch
-from contact.halfspace import LocalLaw, Normal, Transient, norm
+from contact.halfspace import Normal, Transient, norm
 from contact.halfspace.lattice import Lattice
 from contact.halfspace.state import State
 from contact.halfspace.third_body import ThirdBody
@@ -28,8 +26,7 @@ from contact.inputs.creepage import Creepage
 from contact.instance.ownership import one_thread
 from contact.pair import backwards
 from contact.pair.curved import Elements, elements
-from contact.pair.elastic_rail import ElasticRail
-from contact.pair.halfspace import HalfspacePair, Instant
+from contact.pair.halfspace import Given, HalfspacePair, Instant
 from contact.pair.solution import PairSolution, Solved
 
 #: Most turns between pressure and traction of unlike bodies.
@@ -65,6 +62,12 @@ class _Step:
 
     distance: float
     sliding: bool = False
+
+
+def _parted(pose: Pose, velocity: Velocity | None, given: dict[str, Any]) -> tuple[Instant, Given]:
+    """Return the arguments of a step as those of its instant and what is given of height, forces and springs."""
+    prescribed = {name: given.pop(name) for name in Given._fields if name in given}
+    return Instant.of(pose, velocity, **given), Given(**prescribed)
 
 
 class TransientPair(HalfspacePair):
@@ -136,39 +139,28 @@ class TransientPair(HalfspacePair):
         self._left = tuple(one._replace(pressed=True) for one in self._left) if keep_pressure else ()
 
     @one_thread
-    def shift(
-        self,
-        pose: Pose,
-        moved: Velocity,
-        *,
-        station: float = 0.0,
-        rotation: float = 0.0,
-        load: float | None = None,
-        penetration: float | None = None,
-        vertical: float | None = None,
-        irregularity: Irregularity | None = None,
-        friction: float | Friction | LocalLaw = 0.3,
-        rail: ElasticRail | None = None,
-        offset: WheelOffset | None = None,
-    ) -> PairSolution:
+    def shift(self, pose: Pose, moved: Velocity, **given: Any) -> PairSolution:
         """Shift the wheel against the rail without rolling, and return the solution after it.
 
         Parameters
         ----------
-        pose, station, rotation : after the shift
+        pose : after the shift
         moved : contact.pair.Velocity
             Displacement of the wheelset in this step in place of its velocity [m], [rad]; so are the rates of `irregularity`
             and `offset`. Without `spin` it rolls.
-        load, penetration, vertical, friction, rail :
-            As for `HalfspacePair.solve`; friction may also be a `contact.halfspace.LocalLaw`.
+        **given
+            As for `HalfspacePair.solve`, but neither force nor torque; station and rotation are those after the shift, and
+            friction may also be a `contact.halfspace.LocalLaw`.
 
         Returns
         -------
         PairSolution
             Creepages are shifts [m], [rad], `power_per_metre` is the work of friction [J].
         """
-        at = Instant.of(pose, moved, station, rotation, irregularity, offset, friction)
-        return self._stepped(_Step(0.0), at, load, penetration, vertical, None, None, rail)
+        for name in ("force", "torque"):
+            if name in given:
+                raise ContactError(f"{name} = {given[name]!r}: a shift takes no {name}; it is given by `moved`")
+        return self._stepped(_Step(0.0), *_parted(pose, moved, given))
 
     @one_thread
     def roll(
@@ -177,38 +169,28 @@ class TransientPair(HalfspacePair):
         velocity: Velocity | None = None,
         *,
         distance: float,
-        station: float = 0.0,
-        rotation: float = 0.0,
-        load: float | None = None,
-        penetration: float | None = None,
-        vertical: float | None = None,
-        force: float | None = None,
-        torque: float | None = None,
-        irregularity: Irregularity | None = None,
-        friction: float | Friction | LocalLaw = 0.3,
-        rail: ElasticRail | None = None,
-        offset: WheelOffset | None = None,
         sliding: bool = False,
+        **given: Any,
     ) -> PairSolution:
         """Roll by `distance` [m], positive, and return the solution after it.
 
-        `sliding` is as for `contact.Transient.roll`, the other parameters as for `HalfspacePair.solve`.
+        `sliding` is as for `contact.Transient.roll`, the other parameters as for `HalfspacePair.solve`; friction may also be a
+        `contact.halfspace.LocalLaw`.
         """
         step = _Step(require_number("distance", distance, 0.0, open_minimum=True), sliding)
-        at = Instant.of(pose, velocity, station, rotation, irregularity, offset, friction)
-        return self._stepped(step, at, load, penetration, vertical, force, torque, rail)
+        return self._stepped(step, *_parted(pose, velocity, given))
 
     def roll_on(self, pose: Pose, velocity: Velocity | None = None, **given: Any) -> PairSolution:
         """Roll until nothing changes any more: `solve`, after which steps continue."""
         return self.solve(pose, velocity, **given)
 
-    def _given(self, at: Instant, *given: Any) -> PairSolution:
-        return self._stepped(_Step(math.inf), at, *given)
+    def _given(self, at: Instant, given: Given) -> PairSolution:
+        return self._stepped(_Step(math.inf), at, given)
 
-    def _stepped(self, step: _Step, at: Instant, *given: Any) -> PairSolution:
+    def _stepped(self, step: _Step, at: Instant, given: Given) -> PairSolution:
         """Return the solution of a step, and keep what it leaves."""
         self._step = step
-        found = super()._given(at, *given)
+        found = super()._given(at, given)
         self._left = tuple(self._now)
         return found
 
@@ -244,13 +226,8 @@ class TransientPair(HalfspacePair):
         y, z = self.pair.rail.curves(np.array([station]))[:, 0]
         known = np.isfinite(y)
         y, z = y[known], z[known]
-        top = int(np.argmin(z))
-        low, high = top, top
-        while low > 0 and y[low - 1] < y[low]:
-            low -= 1
-        while high < y.size - 1 and y[high + 1] > y[high]:
-            high += 1
-        y, z = y[low : high + 1], z[low : high + 1]
+        rising = connected(np.diff(y) > 0.0, int(np.argmin(z)))
+        y, z = y[rising], z[rising]
         arc = np.concatenate(([0.0], np.cumsum(np.hypot(np.diff(y), np.diff(z)))))
         return y, arc - float(np.interp(0.0, y, arc))
 

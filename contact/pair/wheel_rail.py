@@ -20,7 +20,7 @@ from contact.geometry.surfaces import SurfacePair
 from contact.geometry.wheelset import Pair
 from contact.inputs.material import STEEL, Material
 from contact.inputs.options import ITERATIONS, N_ELEMENTS, N_STRIPS
-from contact.inputs.plausibility import doubt_alike, doubt_beyond, doubt_gap, doubt_normal_force, doubt_strips
+from contact.inputs.plausibility import doubt_alike
 from contact.instance import workspace
 from contact.instance.case import SURFACE, cases, surface_bytes
 from contact.instance.ownership import one_thread, turn_of, within
@@ -35,7 +35,7 @@ from contact.pair.elastic_rail import ElasticRail
 from contact.pair.motion import AnyPair
 from contact.pair.solution import PairSolution
 from contact.registry import DEFAULT_NORMAL, DEFAULT_TANGENTIAL, lookup
-from contact.results import BEND, BEYOND, PairJacobian
+from contact.results import PairJacobian, doubt_answer
 from contact.results.jacobian import columns_of_pair
 from contact.solve import solve
 from contact.solver import require_resolution
@@ -296,10 +296,10 @@ class WheelRailPair(AnyPair):
         jacobian = self._derive(mode) if derivatives else None
         y, z = self._deflection
         found = PairSolution.of_kernel(*self._found, code, (float(y[0]), float(z[0])), given[_SPIN], jacobian)
-        doubt_normal_force(found.Q, self.pair.told, "Q")
-        doubt_gap(found.gap_error, self._gap_limit, self.pair.told)
-        doubt_strips(found.bend, BEND, self._methods["conformal"], self.pair.told)
-        doubt_beyond(found.beyond, BEYOND, self.pair.told)
+        doubt_answer(
+            self.pair.told, self._gap_limit, self._methods["conformal"], Q=found.Q, gap_error=found.gap_error,
+            bend=found.bend, beyond=found.beyond,
+        )  # fmt: skip
         return found
 
     def _derive(self, mode: int) -> PairJacobian:

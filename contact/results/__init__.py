@@ -1,8 +1,9 @@
 """What the solvers return: `Solution` with the fields of one patch, `Forces` of arrays of cases, `Jacobian`."""
 
+from contact.results.doubts import ANSWERS, BEND, BEYOND, doubt_answer
 from contact.results.jacobian import Jacobian, PairJacobian
 from contact.results.resultants import CaseForces, Forces
-from contact.results.solution import ANSWERS, BEND, BEYOND, Prepared, Solution, Status, Strips
+from contact.results.solution import Prepared, Solution, Status, Strips
 
 __all__ = [
     "ANSWERS",
@@ -16,4 +17,5 @@ __all__ = [
     "Solution",
     "Status",
     "Strips",
+    "doubt_answer",
 ]

@@ -18,13 +18,12 @@ from contact.damage import Damage, evaluate
 from contact.errors import only_with_fields
 from contact.inputs.creepage import Creepage
 from contact.inputs.material import Material
-from contact.inputs.plausibility import USUAL_N, Usual, about_bend, about_beyond, about_gap
 from contact.kernels.arrays import SolverArrays
 from contact.kernels.enumerations import Status
 from contact.kernels.friction import of_case
 from contact.kernels.records import CASE, RESULT
 from contact.kernels.rows import Field, Strip
-from contact.registry import GAP_LIMIT, GAP_LIMIT_INTERACTING, methods
+from contact.registry import methods
 from contact.results.jacobian import Jacobian
 from contact.results.later import STATES, MadeLater, reader
 from contact.results.pressure import pressure_at, sketch
@@ -32,19 +31,6 @@ from contact.view.notebook import beside, table
 from contact.view.tables import Table
 
 Records = NDArray[np.void]
-
-#: Change of the contact angle over a patch above which a plane contact may be wrong [rad] (docs/check/limits.md).
-BEND = 0.4
-#: Share of the load on shapes beyond the table of creep forces above which forces are doubtful [-].
-BEYOND = 0.01
-#: What is doubted of an answer: its largest usual value, and what is wrong above it.
-ANSWERS = {
-    "bend": Usual(BEND, about_bend(BEND)),
-    "beyond": Usual(BEYOND, about_beyond(BEYOND)),
-    "gap_error": Usual(GAP_LIMIT, about_gap(GAP_LIMIT)),
-    "gap_error interacting": Usual(GAP_LIMIT_INTERACTING, about_gap(GAP_LIMIT_INTERACTING)),
-    "N": USUAL_N,
-}
 
 #: Member of the records RESULT and TOTAL → attribute of a solution, for the numbers that are called otherwise.
 RENAMED = {"pmax": "max_pressure", "power": "power_per_metre", "stiffness": "normal_stiffness"}

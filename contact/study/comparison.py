@@ -6,7 +6,9 @@ import json
 from collections.abc import Sequence
 from dataclasses import asdict, dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
+
+import numpy as np
 
 from contact.results import Solution
 from contact.study.case import Case
@@ -15,6 +17,8 @@ from contact.study.pairs import REFERENCE, Pair
 from contact.study.row import Row
 from contact.study.table import Table, tables_of
 from contact.version import __version__
+from contact.view.tables import Table as Tables
+from contact.view.tables import Tabular
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -25,8 +29,8 @@ _TITLE = "Contact models side by side"
 
 
 @dataclass(frozen=True)
-class Comparison:
-    """Cases solved by several pairs of methods.
+class Comparison(Tabular):
+    """Cases solved by several pairs of methods. Its tables for pandas and xarray are over case and pair.
 
     Attributes
     ----------
@@ -155,23 +159,14 @@ class Comparison:
         texts = {".html": self.html, ".md": self.markdown, ".json": self.json, ".csv": self.csv}
         write(path, texts, self.figure)
 
-    def to_xarray(self) -> Any:
-        """Return the rows as an `xarray.Dataset` over case and pair, with NaN if there is no value. It needs xarray."""
-        try:
-            import xarray
-        except ImportError:
-            raise ImportError("Comparison.to_xarray needs xarray: pip install 'wheelrail-contact[xarray]'") from None
-        import numpy as np
-
-        shape = len(self.cases), len(self.pairs)
+    def _table(self) -> Tables:
+        axes = {"case": np.array([case.name for case in self.cases]), "pair": np.array(list(map(str, self.pairs)))}
         flat = [row.flat() for row in self.rows]
-        values = {
-            name: (("case", "pair"), np.array([row[name] for row in flat], dtype=object).reshape(shape))
+        columns = {
+            name: np.array([row[name] for row in flat], dtype=str if name == "status" else np.float64).reshape(
+                len(self.cases), -1
+            )
             for name in flat[0]
             if name not in ("case", "normal", "tangential")
         }
-        for name, (dims, array) in values.items():
-            values[name] = (dims, array.astype(str if name == "status" else np.float64))
-        return xarray.Dataset(
-            values, coords={"case": [case.name for case in self.cases], "pair": [str(pair) for pair in self.pairs]}
-        )
+        return Tables(axes, columns, units={"time": "s"})

@@ -11,7 +11,7 @@ import numpy as np
 
 from contact import friction
 from contact.arrays import Array
-from contact.errors import ContactError
+from contact.errors import ContactError, optional
 from contact.instance import workspace
 from contact.instance.case import cases, set_surface
 from contact.instance.ownership import OwnsArrays, one_thread
@@ -125,11 +125,6 @@ class OneEllipse(OwnsArrays):
 
         `start` is the first guess. `stiff` is the weight of the difference from `expected`.
         """
-        try:
-            from scipy.optimize import least_squares
-        except ImportError as missing:
-            raise ImportError("fitting needs scipy: pip install 'wheelrail-contact[profiles]'") from missing
-
         _, alpha, beta, rho = table.nodes()
         j, k, l = at
         given = creep_table.creepage(self.log_aspect, alpha[j], beta[k], rho[l])
@@ -143,4 +138,5 @@ class OneEllipse(OwnsArrays):
             found = self.forces(creepage + sizes * change[:3], change[3])
             return np.concatenate([weights * (found - true), stiff * (change - expected)])
 
+        least_squares = optional("scipy.optimize", "fitting needs", "profiles").least_squares
         return least_squares(misfit, 1.0 + start, method="lm", diff_step=1e-3, max_nfev=60).x - 1.0

@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from contact.arrays import Array, require_numbers
-from contact.errors import ContactError, require_integer, suggestion, warn
+from contact.errors import ContactError, optional, require_integer, suggestion, warn
 from contact.pair import WheelRailPair, over_poses
 from contact.study import files
 
@@ -243,8 +243,4 @@ def _random(axes: Mapping[str, Array], n: int, seed: int) -> dict[str, Any]:
 
 
 def _savemat() -> Callable[..., None]:
-    try:
-        from scipy.io import savemat
-    except ImportError:
-        raise ImportError("a .mat file needs scipy: pip install 'wheelrail-contact[profiles]'") from None
-    return savemat
+    return optional("scipy.io", "a .mat file needs", "profiles").savemat

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import fields
-from importlib import import_module
 from typing import Any, NamedTuple, Self
 
 import numpy as np
 from numpy.typing import NDArray
 
+from contact.errors import optional
 from contact.view.units import UNITS
 
 Values = NDArray[Any]
@@ -56,7 +56,7 @@ class Tabular:
         ImportError
             If pandas is missing; the message names the extra.
         """
-        pandas, table = _imported("pandas"), self._table()
+        pandas, table = optional("pandas", "tables need", "tables"), self._table()
         shape = tuple(values.size for values in table.axes.values())
         columns = {
             name: np.broadcast_to(_over(values, len(shape)), shape).ravel()
@@ -80,7 +80,7 @@ class Tabular:
         ImportError
             If xarray is missing; the message names the extra.
         """
-        xarray, table = _imported("xarray"), self._table()
+        xarray, table = optional("xarray", "tables need", "tables"), self._table()
         names = tuple(table.axes)
 
         def variable(name: str, values: Values, over: tuple[str, ...]) -> tuple[Any, ...]:
@@ -146,10 +146,3 @@ def axes_of(shape: Sequence[int], given: Mapping[str, Values]) -> tuple[dict[str
         if name not in axes and along[name]:
             beside[name] = np.broadcast_to(values, shape)
     return axes, beside
-
-
-def _imported(name: str) -> Any:
-    try:
-        return import_module(name)
-    except ImportError as missing:
-        raise ImportError(f"tables need {name}: pip install 'wheelrail-contact[tables]'") from missing

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from typing import TypedDict, Unpack
+from typing import Any, TypedDict, Unpack
 
 from contact.inputs.options import MEMBERS, Real, Whole
 from .variables import Causality, Enumeration, Variable
@@ -27,12 +27,6 @@ class Taken(TypedDict, total=False):
     maximum: float
     open_minimum: bool
     integer: bool
-
-
-class Placed(Taken, total=False):
-    """The same, and where it goes."""
-
-    member: str
 
 
 class Attributes(Limits, total=False):
@@ -67,19 +61,22 @@ def taken(option: Whole | Real) -> Taken:
     return found if math.isinf(option.most) else {**found, "maximum": option.most}
 
 
-def of(record: str, member: str) -> Placed:
-    """Return start value and range of a number of a record, and the place where it goes."""
-    return {**taken(MEMBERS[record][member]), "member": f"{record}.{member}"}
-
-
 def parameter(name: str, description: str = "", **attributes: Unpack[Attributes]) -> Variable:
     """Return a parameter, fixed unless it is `tunable`."""
-    return Variable(name=name, description=description, causality=Causality.PARAMETER, **attributes)
+    return _given(Causality.PARAMETER, name, description, attributes)
 
 
 def signal(name: str, description: str = "", **attributes: Unpack[Attributes]) -> Variable:
     """Return an input."""
-    return Variable(name=name, description=description, causality=Causality.INPUT, **attributes)
+    return _given(Causality.INPUT, name, description, attributes)
+
+
+def _given(causality: Causality, name: str, description: str, attributes: Attributes) -> Variable:
+    """Return what a host gives. Start value and range are those of its `member`, unless others are stated."""
+    record, _, member = attributes.get("member", "").partition(".")
+    limits = None if attributes.get("enumeration") else MEMBERS.get(record, {}).get(member)
+    known: Any = {**(taken(limits) if limits else {}), **attributes}
+    return Variable(name=name, description=description, causality=causality, **known)
 
 
 def output(name: str, description: str = "", **attributes: Unpack[Attributes]) -> Variable:

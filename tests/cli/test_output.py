@@ -80,7 +80,7 @@ def test_absurd_input_is_answered_with_a_warning_on_one_line():
 
 
 def test_a_file_that_cannot_be_written_is_refused_before_the_computation(tmp_path, monkeypatch):
-    monkeypatch.setattr("contact.cli.problem.solve_position", None)
+    monkeypatch.setattr("contact.cli.arguments.solve_position", None)
     assert "there is no folder" in call("solve", "--out", tmp_path / "no/a.csv", code=2).stderr
     assert "a file ends in one of" in call("solve", "--out", tmp_path / "a.docx", code=2).stderr
 

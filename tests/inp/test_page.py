@@ -2,11 +2,8 @@
 
 from pathlib import Path
 
-import pytest
-
-from contact import ContactError
 from contact.inp.controls import WORDS
-from contact.inp.digits import digit_table, with_part
+from contact.inp.digits import digit_table
 from contact.inp.reasons import REASONS, REFUSED, REFUSED_ON_GRID
 
 PAGE = Path(__file__).parents[2] / "docs" / "use" / "from_contact.md"
@@ -14,7 +11,7 @@ PAGE = Path(__file__).parents[2] / "docs" / "use" / "from_contact.md"
 
 def test_the_page_has_the_table_of_digits_of_the_format():
     text = PAGE.read_text(encoding="utf-8")
-    assert with_part(text, "digits", digit_table()) == text
+    assert f"<!-- digits -->\n{digit_table()}<!-- end of digits -->" in text
 
 
 def test_every_refused_digit_is_one_of_the_format_with_a_named_reason():
@@ -24,8 +21,3 @@ def test_every_refused_digit_is_one_of_the_format_with_a_named_reason():
             for letter, values in letters.items():
                 assert set(values) <= set(digits[letter].values(module))
                 assert set(values.values()) <= set(REASONS)
-
-
-def test_a_page_without_marks_is_refused():
-    with pytest.raises(ContactError, match="no marks of the part 'digits'"):
-        with_part("text", "digits", digit_table())

@@ -4,8 +4,7 @@ import pytest
 from fmu_instance import WARNING, Instance
 from fmu_instance_fmi3 import Instance3
 
-from contact.inputs.plausibility import about_bend, about_beyond
-from contact.results import BEND, BEYOND
+from contact.results import ANSWERS, BEND
 
 #: An elliptic contact in the middle of the table of creep forces.
 LONG = {"geometry.A0": 1.1, "geometry.B0": 0.28, "load.normal_force": 8e4, "creepage.longitudinal": 1e-3}
@@ -77,8 +76,8 @@ def test_fmi_3_says_the_same(native_fmi3_folder):
 @pytest.mark.parametrize(
     ("name", "output", "before", "values", "least", "about"),
     [
-        ("WheelRailPair", "bend", {}, {"pose.y": 6.75e-3}, BEND, about_bend(BEND)),
-        ("EllipticContact", "beyond", LONG, {"geometry.A0": 6.9, "geometry.B0": 0.0588}, 0.999, about_beyond(BEYOND)),
+        ("WheelRailPair", "bend", {}, {"pose.y": 6.75e-3}, BEND, ANSWERS["bend"].hint),
+        ("EllipticContact", "beyond", LONG, {"geometry.A0": 6.9, "geometry.B0": 0.0588}, 0.999, ANSWERS["beyond"].hint),
     ],
 )
 def test_what_a_method_leaves_out_of_a_patch_is_told_once(opened, name, output, before, values, least, about):

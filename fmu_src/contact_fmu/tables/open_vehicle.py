@@ -51,26 +51,13 @@ def _parameters(declared: VehicleDeclaration) -> Iterable[Variable]:
     yield vehicle.initial_distance()
     of = "of each wheelset at the start"
     yield parameter("initial.y", f"pose.y {of}", unit="m", shape=(n,), start=0.0, nominal=1e-3)
-    yield parameter(
-        "initial.z",
-        f"pose.z {of}, at which its wheels carry their load (WheelRailPair with NormalForce)",
-        unit="m",
-        shape=(n,),
-        start=1e-4,
-        nominal=1e-4,
-    )
+    about = f"pose.z {of}, at which its wheels carry their load (WheelRailPair with NormalForce)"
+    yield parameter("initial.z", about, unit="m", shape=(n,), start=1e-4, nominal=1e-4)
     yield parameter("initial.roll", f"pose.roll {of}", unit="rad", shape=(n,), start=0.0, nominal=1e-4)
-    yield parameter(
-        "initial.radius",
-        f"Rolling radius {of}: velocity.spin is the speed over it",
-        unit="m",
-        shape=(n,),
-        **taken(RADIUS._replace(usual=declared.radius)),
-    )
-    yield parameter(
-        "rail.origin_y", "Distance of the origin of the rail's profile from the centre line", unit="m",
-        start=0.5 * declared.gauge,
-    )  # fmt: skip
+    about, usual = f"Rolling radius {of}: velocity.spin is the speed over it", RADIUS._replace(usual=declared.radius)
+    yield parameter("initial.radius", about, unit="m", shape=(n,), **taken(usual))
+    about = "Distance of the origin of the rail's profile from the centre line"
+    yield parameter("rail.origin_y", about, unit="m", start=0.5 * declared.gauge)
     yield parameter("rail.origin_z", "Height of this origin, positive down from the rail's top", unit="m", start=0.0)
     yield replace(next(row for row in parameters(1.0 / 40.0) if row.name == "reference_speed"), tunable=False)
 

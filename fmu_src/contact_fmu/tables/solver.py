@@ -4,13 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import replace
+from typing import Any
 
 import contact
 from contact import Status, registry
 from contact.inputs.material import THERMAL_RANGE, Thermal
 from contact.inputs.options import HOT_FACTOR, N_ELEMENTS, N_STRIPS, TEMPERATURE, TEMPERATURE_RANGE
 from contact.results import BEND, BEYOND
-from ..rows import Limits, of, output, parameter, taken
+from ..rows import Limits, output, parameter, taken
 from ..variables import Enumeration, Variable
 
 NORMAL_METHOD = Enumeration("NormalMethod", tuple((m.name, m.title) for m in contact.methods().batched.normal.values()))
@@ -78,141 +79,89 @@ def _parameters() -> Iterable[Variable]:
     yield parameter(
         "method.normal", "Method for the normal problem", enumeration=NORMAL_METHOD, start=registry.DEFAULT_NORMAL
     )
-    yield parameter(
-        "method.tangential",
-        "Method for the tangential problem; with creep force laws traction, slip, wear depth and field indices are zero",
-        enumeration=TANGENTIAL_METHOD,
-        start=registry.DEFAULT_TANGENTIAL,
+    about = (
+        "Method for the tangential problem; with creep force laws traction, slip, wear depth and field indices are zero"
     )
-    yield parameter(
-        "material.shear_modulus", "Combined shear modulus of wheel and rail", nominal=1e11, **of("case", "G")
-    )
-    yield parameter("material.poisson_ratio", "Combined Poisson ratio of wheel and rail", **of("case", "nu"))
-    yield parameter(
-        "material.hardness",
-        "Hardness of the softer body (wear)",
-        nominal=1e9,
-        **of("damage_parameters", "hardness"),
-    )
-    yield parameter(
-        "material.shear_yield",
-        "Yield stress in shear (fatigue and stress index)",
-        nominal=1e8,
-        **of("damage_parameters", "shear_yield"),
-    )
-    yield parameter(
-        "material.pressure_limit",
-        "Pressure limit of an elastic-perfectly plastic material; 0: no limit",
-        start=0.0,
-        minimum=0.0,
-        nominal=1e9,
-        member="case.pressure_limit",
-    )
-    yield parameter(
-        "method.max_iterations",
-        "Most iterations of interacting strips, which cap the time of a step; then the status is NotConverged",
-        **of("case", "max_iterations"),
-    )
-    yield parameter(
-        "resolution.n_strips",
-        "Strips per patch. Above 200 the time of interacting strips grows with the cube of those of all patches: a second for "
-        "1000, a minute for several patches of 1000",
-        **taken(N_STRIPS),
-    )
-    yield parameter("resolution.n_elements", "Elements per strip", **taken(N_ELEMENTS))
-    yield parameter(
-        "friction.law",
-        "Dependence of friction on sliding velocity",
-        enumeration=FRICTION_LAW,
-        start="Coulomb",
-        member="case.law",
-    )
-    yield parameter(
-        "friction.kinetic",
-        "Coefficient of friction at high sliding velocity; not used by Coulomb",
-        **of("case", "kinetic"),
-    )
-    yield parameter(
-        "friction.half_speed",
-        "Sliding velocity at which friction is halfway from friction.coefficient to friction.kinetic",
-        **of("case", "half_speed"),
-    )
-    yield parameter(
-        "friction.slope", "Factor on the creep stiffness at small creepage; 1: clean surfaces", **of("case", "slope")
-    )
-    yield parameter(
-        "friction.slope_far",
-        "Limit of the factor at large creepage, divided by friction.slope",
-        **of("case", "slope_far"),
-    )
-    yield parameter("friction.slope_rate", "Rate at which the factor falls with creepage", **of("case", "slope_rate"))
-    yield parameter(
-        "friction.velocity",
-        "Slip velocity that the law follows",
-        enumeration=FRICTION_VELOCITY,
-        start="Global",
-        member="case.velocity",
-    )
-    yield parameter(
-        "friction.gauge_factor",
-        "Factor on all coefficients of friction on the gauge side of the profile",
-        **of("case", "gauge_factor"),
-    )
-    yield parameter(
-        "friction.border",
-        "Border of the gauge side, which is y below it: in the plane of the separation, or in the profile of either rail",
-        **of("case", "border"),
-    )
-    yield parameter(
-        "friction.border_width",
-        "Width of the smooth transition at friction.border; negative: the gauge side is y above it",
-        nominal=1e-3,
-        **of("case", "border_width"),
-    )
-    for name, where in (("k_A", "adhesion"), ("k_S", "slip")):
-        yield parameter(
-            f"friction.{name}",
-            f"Polach's reduction factor in the area of {where}, used only when method.tangential = polach",
-            **of("case", name),
-        )
-    yield parameter(
-        "friction.hot_factor",
-        "Share of the coefficient of friction that remains when hot; 1: friction does not depend on the temperature",
-        **taken(HOT_FACTOR),
-    )
-    for name, option, member, description in (
-        ("reference_temperature", TEMPERATURE, "", "Temperature above which friction falls linearly"),
+    yield parameter("method.tangential", about, enumeration=TANGENTIAL_METHOD, start=registry.DEFAULT_TANGENTIAL)
+    yield from _numbers(
+        ("material.shear_modulus", "case.G", 1e11, "Combined shear modulus of wheel and rail"),
+        ("material.poisson_ratio", "case.nu", None, "Combined Poisson ratio of wheel and rail"),
+        ("material.hardness", "damage_parameters.hardness", 1e9, "Hardness of the softer body (wear)"),
         (
-            "temperature_range",
-            TEMPERATURE_RANGE,
-            "case.warm_range",
-            "Rise above it at which friction has fallen to friction.hot_factor",
+            "material.shear_yield",
+            "damage_parameters.shear_yield",
+            1e8,
+            "Yield stress in shear (fatigue and stress index)",
         ),
+    )
+    about = "Pressure limit of an elastic-perfectly plastic material; 0: no limit"
+    yield parameter("material.pressure_limit", about, start=0.0, nominal=1e9, member="case.pressure_limit")
+    about = "Most iterations of interacting strips, which cap the time of a step; then the status is NotConverged"
+    yield parameter("method.max_iterations", about, member="case.max_iterations")
+    about = (
+        "Strips per patch. Above 200 the time of interacting strips grows with the cube of those of all patches: a second for "
+        "1000, a minute for several patches of 1000"
+    )
+    yield parameter("resolution.n_strips", about, **taken(N_STRIPS))
+    yield parameter("resolution.n_elements", "Elements per strip", **taken(N_ELEMENTS))
+    about = "Dependence of friction on sliding velocity"
+    yield parameter("friction.law", about, enumeration=FRICTION_LAW, start="Coulomb", member="case.law")
+    half = "Sliding velocity at which friction is halfway from friction.coefficient to friction.kinetic"
+    border = "Border of the gauge side, which is y below it: in the plane of the separation, or in the profile of either rail"
+    width = "Width of the smooth transition at friction.border; negative: the gauge side is y above it"
+    polach = "Polach's reduction factor in the area of {}, used only when method.tangential = polach"
+    yield from _numbers(
+        (
+            "friction.kinetic",
+            "case.kinetic",
+            None,
+            "Coefficient of friction at high sliding velocity; not used by Coulomb",
+        ),
+        ("friction.half_speed", "case.half_speed", None, half),
+        ("friction.slope", "case.slope", None, "Factor on the creep stiffness at small creepage; 1: clean surfaces"),
+        (
+            "friction.slope_far",
+            "case.slope_far",
+            None,
+            "Limit of the factor at large creepage, divided by friction.slope",
+        ),
+        ("friction.slope_rate", "case.slope_rate", None, "Rate at which the factor falls with creepage"),
+    )
+    about = "Slip velocity that the law follows"
+    yield parameter("friction.velocity", about, enumeration=FRICTION_VELOCITY, start="Global", member="case.velocity")
+    gauge = "Factor on all coefficients of friction on the gauge side of the profile"
+    yield from _numbers(
+        ("friction.gauge_factor", "case.gauge_factor", None, gauge),
+        ("friction.border", "case.border", None, border),
+        ("friction.border_width", "case.border_width", 1e-3, width),
+        ("friction.k_A", "case.k_A", None, polach.format("adhesion")),
+        ("friction.k_S", "case.k_S", None, polach.format("slip")),
+    )
+    about = "Share of the coefficient of friction that remains when hot; 1: friction does not depend on the temperature"
+    yield parameter("friction.hot_factor", about, **taken(HOT_FACTOR))
+    fallen = "Rise above it at which friction has fallen to friction.hot_factor"
+    for name, option, member, about in (
+        ("reference_temperature", TEMPERATURE, "", "Temperature above which friction falls linearly"),
+        ("temperature_range", TEMPERATURE_RANGE, "case.warm_range", fallen),
         ("background_temperature", TEMPERATURE, "", "Mean temperature of wheel and rail outside the patch"),
     ):
-        yield parameter(f"friction.{name}", description, unit="K", **taken(option), nominal=100.0, member=member)
-    low, high = THERMAL_RANGE
-    for name, unit, description in (
+        yield parameter(f"friction.{name}", about, unit="K", **taken(option), nominal=100.0, member=member)
+    thermal: dict[str, Any] = {"minimum": THERMAL_RANGE[0], "maximum": THERMAL_RANGE[1], "nominal": 100.0}
+    for name, unit, about in (
         ("conductivity", "W/(m.K)", "Thermal conductivity of wheel and rail"),
         ("density", "kg/m3", "Density of wheel and rail"),
         ("heat_capacity", "J/(kg.K)", "Specific heat capacity of wheel and rail"),
     ):
-        yield parameter(
-            f"thermal.{name}",
-            f"{description}, used when friction.hot_factor < 1",
-            unit=unit,
-            start=getattr(_THERMAL, name),
-            minimum=low,
-            maximum=high,
-            nominal=100.0,
-        )
-    yield parameter(
-        "thermal.heat_share",
-        "Share of the frictional energy that becomes heat",
-        start=_THERMAL.heat_share,
-        minimum=0.0,
-        maximum=1.0,
-    )
+        about = f"{about}, used when friction.hot_factor < 1"
+        yield parameter(f"thermal.{name}", about, unit=unit, start=getattr(_THERMAL, name), **thermal)
+    about = "Share of the frictional energy that becomes heat"
+    yield parameter("thermal.heat_share", about, start=_THERMAL.heat_share, minimum=0.0, maximum=1.0)
+
+
+def _numbers(*rows: tuple[str, str, float | None, str]) -> Iterable[Variable]:
+    """Yield parameters: name, member, nominal and description of each."""
+    for name, member, nominal, about in rows:
+        yield parameter(name, about, nominal=nominal, member=member)
 
 
 #: Each damage: name, member, attributes.
@@ -249,37 +198,25 @@ def total(name: str, description: str, unit: str, of: tuple[str | None, str | No
 
 def bend(record: str, depends: tuple[str, ...] | None = None) -> Variable:
     """Return how far the contact angle changes over a patch."""
-    return output(
-        "bend",
-        f"Largest change of the contact angle over the patches in one plane. Above {BEND:g} rad strips in a plane are doubtful",
-        minimum=0.0,
-        nominal=0.1,
-        depends=depends,
-        member=f"{record}.bend",
-    )
+    about = "Largest change of the contact angle over the patches in one plane. Above "
+    about += f"{BEND:g} rad strips in a plane are doubtful"
+    return output("bend", about, minimum=0.0, nominal=0.1, depends=depends, member=f"{record}.bend")
 
 
 def beyond(record: str) -> Variable:
     """Return how much of the load is on shapes beyond the table that the method reads."""
-    return output(
-        "beyond",
+    about = (
         "Largest share of a patch's load on shapes whose a/b is beyond the table that the method reads. "
-        f"Above {BEYOND:g} forces are doubtful",
-        minimum=0.0,
-        maximum=1.0,
-        member=f"{record}.beyond",
+        f"Above {BEYOND:g} forces are doubtful"
     )
+    return output("beyond", about, minimum=0.0, maximum=1.0, member=f"{record}.beyond")
 
 
 def gap_error(record: str, depends: tuple[str, ...] | None = None) -> Variable:
     """Return the error estimate of the normal problem."""
-    return output(
-        "gap_error",
+    about = (
         "Largest gap or overlap left in the patch, over the approach. Above "
         f"{_GAP_LIMITS['strip_halfspace']:g} ({_GAP_LIMITS['analyn']:g} for strips that do not interact) "
-        "the largest pressure is doubtful",
-        minimum=0.0,
-        maximum=1.0,
-        depends=depends,
-        member=f"{record}.gap_error",
+        "the largest pressure is doubtful"
     )
+    return output("gap_error", about, minimum=0.0, maximum=1.0, depends=depends, member=f"{record}.gap_error")

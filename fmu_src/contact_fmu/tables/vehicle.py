@@ -118,59 +118,34 @@ def _parameters(declared: VehicleDeclaration, inclination: float) -> Iterable[Va
     for row in wheel_rail_pair.parameters(inclination):
         yield replace(row, start=starts.get(row.name, row.start), tunable=False)  # tested only of one contact
     yield initial_distance()
-    yield parameter(
-        "resolution.step",
-        "Longest step of the integration; a communication step is divided evenly",
-        unit="s",
-        start=2e-4,
-        minimum=1e-6,
-        maximum=1e-3,
-        nominal=1e-4,
+    about = "Longest step of the integration; a communication step is divided evenly"
+    yield parameter("resolution.step", about, unit="s", start=2e-4, minimum=1e-6, maximum=1e-3, nominal=1e-4)
+    about = (
+        "Most steps of the integration from one solution of a contact to the next; 1: every step solves all contacts"
     )
-
-    yield parameter(
-        "resolution.pace",
-        "Most steps of the integration from one solution of a contact to the next; 1: every step solves all contacts",
-        integer=True,
-        start=PACE,
-        minimum=1,
-        maximum=LONGEST_PACE,
-    )
+    yield parameter("resolution.pace", about, integer=True, start=PACE, minimum=1, maximum=LONGEST_PACE)
 
 
 def initial_distance() -> Variable:
     """Return the row of the place at the start."""
-    return parameter(
-        "initial.distance",
-        "Place of the vehicle's reference at the start, on the track's stations",
-        unit="m",
-        start=START,
-    )
+    about = "Place of the vehicle's reference at the start, on the track's stations"
+    return parameter("initial.distance", about, unit="m", start=START)
 
 
 def inputs() -> Iterable[Variable]:
     """Yield speed and friction."""
+    about = "Speed along the track, negative when rolling backwards; to stop set reference_speed to 10 m/s with steps of 0.2 ms"
+    yield signal("speed", about, unit="m/s", start=15.0, minimum=-FASTEST, maximum=FASTEST)
     yield signal(
-        "speed",
-        "Speed along the track, negative when rolling backwards; to stop set reference_speed to 10 m/s with steps of 0.2 ms",
-        unit="m/s",
-        start=15.0,
-        minimum=-FASTEST,
-        maximum=FASTEST,
-    )
-    yield signal(
-        "friction.coefficient",
-        "Coefficient of friction, which the track's factors multiply",
-        **taken(FRICTION),
+        "friction.coefficient", "Coefficient of friction, which the track's factors multiply", **taken(FRICTION)
     )
 
 
 def motion(declared: VehicleDeclaration, depends: tuple[str, ...]) -> Iterable[Variable]:
     """Yield the rows of the motion of all bodies."""
     n = len(names(declared))
-    yield output(
-        "distance", "Place of the vehicle's reference on the track's stations", unit="m", nominal=1e2, depends=depends
-    )
+    about = "Place of the vehicle's reference on the track's stations"
+    yield output("distance", about, unit="m", nominal=1e2, depends=depends)
     for name, unit, meaning in COORDINATES:
         about = f"{meaning}, of each body in the frame of the ideal track"
         yield output(f"body[].{name}", about, unit=unit, shape=(n,), nominal=1e-3, depends=depends)

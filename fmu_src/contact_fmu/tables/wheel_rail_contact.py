@@ -5,12 +5,12 @@ from __future__ import annotations
 from collections.abc import Iterable
 from dataclasses import replace
 from functools import cache
-from typing import Unpack
+from typing import Any, Unpack
 
 from contact.inputs.options import RADIUS
 from contact.inputs.separation import LARGEST_TILT
 from contact.kernels.records import MAX_PATCHES
-from ..rows import Attributes, of, output, parameter, signal
+from ..rows import Attributes, output, parameter, signal
 from ..variables import Enumeration, Table, Variable
 from . import solver
 
@@ -26,22 +26,9 @@ LOAD_KIND = Enumeration(
 )
 #: Rows on which the solution of the normal problem depends. Forces depend on all rows.
 _NORMAL_PROBLEM = (
-    "geometry.kind",
-    "geometry.y0",
-    "geometry.dy",
-    "geometry.g",
-    "geometry.A",
-    "geometry.A0",
-    "geometry.B0",
-    "load.kind",
-    "load.normal_force",
-    "load.approach",
-    "method.normal",
-    "method.max_iterations",
-    "material.shear_modulus",
-    "material.poisson_ratio",
-    "material.pressure_limit",
-    "resolution.n_strips",
+    *(f"geometry.{name}" for name in ("kind", "y0", "dy", "g", "A", "A0", "B0")),
+    *("load.kind", "load.normal_force", "load.approach", "method.normal", "method.max_iterations"),
+    *("material.shear_modulus", "material.poisson_ratio", "material.pressure_limit", "resolution.n_strips"),
 )
 #: Least half curvature [1/m]. Masters that start every connector at 0 give 0 (and no load).
 FLATTEST = 1e-6
@@ -90,159 +77,68 @@ def table(points: int = POINTS, elliptic: bool = False) -> Table:
 def _parameters(points: int) -> Iterable[Variable]:
     yield parameter("geometry.kind", "How the geometry is given", enumeration=GEOMETRY_KIND, start="Separation")
     yield parameter("geometry.y0", "Lateral position of geometry.g[1]", unit="m", start=-_HALF_WIDTH, used=_SAMPLES)
-    yield parameter(
-        "geometry.dy",
-        "Lateral distance between samples",
-        unit="m",
-        start=2.0 * _HALF_WIDTH / (points - 1),
-        minimum=0.0,
-        open_minimum=True,
-        used=_SAMPLES,
-    )
-    yield parameter(
-        "geometry.surface",
-        "Surface of the patch; Conformal uses geometry.tilt and geometry.rolling; not used when geometry.kind = Curvatures",
-        enumeration=solver.SURFACE,
-        start="Plane",
-        used=_SAMPLES,
-        member="case.conformal",
-    )
+    dy: dict[str, Any] = {"start": 2.0 * _HALF_WIDTH / (points - 1), "minimum": 0.0, "open_minimum": True}
+    yield parameter("geometry.dy", "Lateral distance between samples", unit="m", **dy, used=_SAMPLES)
+    about = "Surface of the patch; Conformal uses geometry.tilt and geometry.rolling; not used when geometry.kind = Curvatures"
+    surface: dict[str, Any] = {"enumeration": solver.SURFACE, "start": "Plane", "member": "case.conformal"}
+    yield parameter("geometry.surface", about, **surface, used=_SAMPLES)
     yield parameter("load.kind", "How the load is given", enumeration=LOAD_KIND, start="NormalForce")
     yield from solver.parameters()
-    yield parameter(
-        "wheel.radius",
-        "Rolling radius (damage per revolution)",
-        start=RADIUS.usual,
-        minimum=0.0,
-        open_minimum=True,
-        member="damage_parameters.wheel_radius",
-    )
+    radius: dict[str, Any] = {"start": RADIUS.usual, "minimum": 0.0, "open_minimum": True}
+    about = "Rolling radius (damage per revolution)"
+    yield parameter("wheel.radius", about, **radius, member="damage_parameters.wheel_radius")
 
 
 def _inputs(points: int) -> Iterable[Variable]:
-    offsets = (_HALF_WIDTH * (2.0 * i / (points - 1) - 1.0) for i in range(points))
-    yield signal(
-        "geometry.g",
-        "Undeformed gap on the contact locus",
-        unit="m",
-        start=tuple(y * y for y in offsets),
-        shape=(points,),
-        nominal=1e-4,
-        used=_SAMPLES,
-    )
-    yield signal(
-        "geometry.A",
-        f"Half curvature in the rolling direction; values below {FLATTEST:g} are replaced by {FLATTEST:g}",
-        unit="1/m",
-        start=0.5 / RADIUS.usual,
-        minimum=0.0,
-        shape=(points,),
-        used=_SAMPLES,
-    )
-    yield signal(
-        "geometry.tilt",
-        "Slope dz/dy of the contact surface relative to the contact plane, used when geometry.surface = Conformal",
-        start=0.0,
-        minimum=-LARGEST_TILT,
-        maximum=LARGEST_TILT,
-        shape=(points,),
-        nominal=0.1,
-        used=_CONFORMAL,
-    )
-    rolling = of("case", "rolling")
-    rolling["start"] = 1.0 / RADIUS.usual
-    yield signal(
-        "geometry.rolling",
-        "Rotation about y per metre rolled, cos(contact angle)/rolling radius, used when geometry.surface = Conformal",
-        **rolling,
-        used=_CONFORMAL,
-    )
+    of_samples: dict[str, Any] = {"shape": (points,), "used": _SAMPLES}
+    gap = tuple(y * y for y in (_HALF_WIDTH * (2.0 * i / (points - 1) - 1.0) for i in range(points)))
+    yield signal("geometry.g", "Undeformed gap on the contact locus", unit="m", start=gap, nominal=1e-4, **of_samples)
+    about = f"Half curvature in the rolling direction; values below {FLATTEST:g} are replaced by {FLATTEST:g}"
+    yield signal("geometry.A", about, unit="1/m", start=0.5 / RADIUS.usual, minimum=0.0, **of_samples)
+    conformal = "used when geometry.surface = Conformal"
+    about = f"Slope dz/dy of the contact surface relative to the contact plane, {conformal}"
+    tilt: dict[str, Any] = {"start": 0.0, "minimum": -LARGEST_TILT, "maximum": LARGEST_TILT, "nominal": 0.1}
+    yield signal("geometry.tilt", about, **tilt, shape=(points,), used=_CONFORMAL)
+    about = f"Rotation about y per metre rolled, cos(contact angle)/rolling radius, {conformal}"
+    yield signal("geometry.rolling", about, start=1.0 / RADIUS.usual, member="case.rolling", used=_CONFORMAL)
     for letter, axis, start in (("A", "in the rolling direction", 0.5 / RADIUS.usual), ("B", "across", 1.0)):
-        yield signal(
-            f"geometry.{letter}0",
-            f"Half curvature {axis}, used when geometry.kind = Curvatures; less than {FLATTEST:g} counts as {FLATTEST:g}",
-            unit="1/m",
-            start=start,
-            minimum=0.0,
-            used=_CURVATURES,
-        )
-    for name, of_case, description, nominal in (
-        ("longitudinal", "vx", "Longitudinal creepage", 1e-3),
-        ("lateral", "vy", "Lateral creepage", 1e-3),
-        ("spin", "phi", "Spin creepage", 0.1),
-    ):
-        yield signal(f"creepage.{name}", f"{description}, wheel minus rail", nominal=nominal, **of("case", of_case))
-    yield signal(
-        "load.normal_force",
-        f"Normal force, used when load.kind = NormalForce; {solver.NO_LOAD}",
-        unit="N",
-        start=80e3,
-        minimum=solver.LEAST_LOAD,
-        nominal=1e5,
-        used={"load.kind": ("NormalForce",)},
-    )
-    yield signal(
-        "load.approach",
-        "Rigid approach from first touch, used when load.kind = Approach; negative: apart",
-        unit="m",
-        start=8e-5,
-        nominal=1e-4,
-        used={"load.kind": ("Approach",)},
-    )
-    yield signal(
-        "speed",
-        "Rolling speed; without speed-dependent friction it scales only rates; at standstill these are 0",
-        nominal=10.0,
-        **of("case", "speed"),
-    )
-    yield signal("friction.coefficient", "Coefficient of friction", **of("case", "mu"))
+        about = f"Half curvature {axis}, used when geometry.kind = Curvatures; less than {FLATTEST:g} counts as {FLATTEST:g}"
+        yield signal(f"geometry.{letter}0", about, unit="1/m", start=start, minimum=0.0, used=_CURVATURES)
+    for name, member, nominal in (("longitudinal", "vx", 1e-3), ("lateral", "vy", 1e-3), ("spin", "phi", 0.1)):
+        about = f"{name.title()} creepage, wheel minus rail"
+        yield signal(f"creepage.{name}", about, nominal=nominal, member=f"case.{member}")
+    about = f"Normal force, used when load.kind = NormalForce; {solver.NO_LOAD}"
+    by_load: dict[str, Any] = {"minimum": solver.LEAST_LOAD, "nominal": 1e5, "used": {"load.kind": ("NormalForce",)}}
+    yield signal("load.normal_force", about, unit="N", start=80e3, **by_load)
+    about = "Rigid approach from first touch, used when load.kind = Approach; negative: apart"
+    used = {"load.kind": ("Approach",)}
+    yield signal("load.approach", about, unit="m", start=8e-5, nominal=1e-4, used=used)
+    about = "Rolling speed; without speed-dependent friction it scales only rates; at standstill these are 0"
+    yield signal("speed", about, nominal=10.0, member="case.speed")
+    yield signal("friction.coefficient", "Coefficient of friction", member="case.mu")
 
 
 def _outputs() -> Iterable[Variable]:
+    normal: dict[str, Any] = {"depends": _NORMAL_PROBLEM}
     yield output("force.x", "Longitudinal creep force on the wheel", nominal=1e4, member="result.Fx")
     yield output("force.y", "Lateral creep force on the wheel", nominal=1e4, member="result.Fy")
-    yield output("force.n", "Normal force", minimum=0.0, nominal=1e5, depends=_NORMAL_PROBLEM, member="result.N")
+    yield output("force.n", "Normal force", minimum=0.0, nominal=1e5, **normal, member="result.N")
     yield output("moment.z", "Spin moment on the wheel about the origin of y", nominal=100.0, member="result.Mz")
-    yield output(
-        "approach",
-        "Rigid approach from first touch",
-        nominal=1e-4,
-        depends=_NORMAL_PROBLEM,
-        member="result.approach",
-    )
-    for name, of_result, description, nominal in (
+    yield output("approach", "Rigid approach from first touch", nominal=1e-4, **normal, member="result.approach")
+    for name, member, about, nominal in (
         ("pressure.max", "pmax", "Greatest contact pressure", 1e9),
         ("patch.area", "area", "Contact area", 1e-4),
         ("patch.length", "length", "Extent of the patch in the rolling direction", 1e-2),
         ("patch.width", "width", "Extent of the patch across", 1e-2),
     ):
-        yield output(
-            name,
-            description,
-            minimum=0.0,
-            nominal=nominal,
-            depends=_NORMAL_PROBLEM,
-            member=f"result.{of_result}",
-        )
-    yield output(
-        "patch.count",
-        "Number of separate patches",
-        integer=True,
-        minimum=0,
-        depends=_NORMAL_PROBLEM,
-        member="result.n_patches",
-    )
+        yield output(name, about, minimum=0.0, nominal=nominal, **normal, member=f"result.{member}")
+    about = "Number of separate patches"
+    yield output("patch.count", about, integer=True, minimum=0, **normal, member="result.n_patches")
     yield output("slip.ratio", "Slip area over contact area", minimum=0.0, maximum=1.0)
     yield output("power.friction", "Frictional power", unit="W", minimum=0.0, nominal=1e3)
     yield from solver.damage("damage")
-    yield output(
-        "stiffness.normal",
-        "dN/d(approach)",
-        minimum=0.0,
-        nominal=1e9,
-        depends=_NORMAL_PROBLEM,
-        member="result.stiffness",
-    )
+    about = "dN/d(approach)"
+    yield output("stiffness.normal", about, minimum=0.0, nominal=1e9, **normal, member="result.stiffness")
     yield output(
         "creep_stiffness",
         "d(force.x, force.y, moment.z)/d(longitudinal, lateral, spin creepage); computed only when it is read, which takes "
@@ -268,12 +164,10 @@ def _fields() -> Iterable[Variable]:
         return output(name, description, **attributes)
 
     normal = (*_NORMAL_PROBLEM, "resolution.n_elements")
-    yield field(
-        "field.patch", "Number of the patch; 0: this strip is not used", integer=True, minimum=0, depends=normal
-    )
-    yield field(
-        "field.x", "Position in the rolling direction, from the leading edge on", unit="m", nominal=1e-3, depends=normal
-    )
+    about = "Number of the patch; 0: this strip is not used"
+    yield field("field.patch", about, integer=True, minimum=0, depends=normal)
+    about = "Position in the rolling direction, from the leading edge on"
+    yield field("field.x", about, unit="m", nominal=1e-3, depends=normal)
     yield field("field.y", "Lateral position", unit="m", nominal=1e-3, depends=normal)
     yield field("field.area", "Area of the element", unit="m2", minimum=0.0, nominal=1e-7, depends=normal)
     yield field("field.pressure", "Contact pressure", unit="Pa", minimum=0.0, nominal=1e9, depends=normal)

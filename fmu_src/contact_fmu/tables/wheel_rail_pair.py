@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from functools import cache
+from typing import Any
 
 from contact.accumulation import MAXIMA, SUMS
 from contact.inputs.options import (
@@ -18,7 +19,7 @@ from contact.inputs.options import (
     SAMPLES,
 )
 from contact.kernels.records import GIVEN, WHEEL_OFFSET
-from ..rows import of, output, parameter, signal, taken
+from ..rows import output, parameter, signal, taken
 from ..variables import Enumeration, Table, Variable
 from . import solver
 
@@ -58,6 +59,7 @@ RESOURCES = (WHEEL, RAIL)
 
 #: Inputs in the order of the record WHEEL_OFFSET.
 OFFSET = tuple(f"offset.{name}" for name in WHEEL_OFFSET.names or ())
+_WAYS = {"y": "Lateral", "z": "Vertical"}
 _SPEED = 20.0
 _STARTS = {"velocity.x": _SPEED, "velocity.spin": -_SPEED / RADIUS.usual}
 
@@ -110,136 +112,68 @@ def parameters(inclination: float) -> Iterable[Variable]:
     yield parameter("wheel.radius", "Nominal radius, at the tape circle", **taken(RADIUS), member="motion.radius")
     yield parameter("wheel.flange_back", "Distance between the backs of the flanges", unit="m", **taken(FLANGE_BACK))
     yield parameter("track.gauge", "Track gauge", unit="m", **taken(GAUGE))
-    yield parameter(
-        "track.gauge_point",
-        "Depth below the top of the rail at which the gauge is measured",
-        unit="m",
-        **taken(GAUGE_POINT),
-        nominal=1e-2,
-    )
-    yield parameter(
-        "rail.inclination",
-        "Tangent of the angle by which the rail's profile is turned towards the track",
-        start=inclination,
-        minimum=0.0,
-        maximum=0.1,
-    )
-    yield parameter(
-        "patches.surface", "Surface of each patch", enumeration=solver.SURFACE, start="Plane", member="case.conformal"
-    )
-    yield parameter(
-        "patches.max",
-        "Greatest number of patches with their own plane; further patches share the plane of the last",
-        integer=True,
-        start=PATCHES,
-        minimum=1,
-        maximum=PATCHES,
-        member="motion.most_patches",
-    )
-    yield parameter(
-        "patches.combine_distance",
-        "Neighbouring patches closer than this share one plane",
-        **taken(COMBINE_DISTANCE),
-        nominal=1e-2,
-        member="motion.combine_distance",
-    )
-    yield parameter(
-        "patches.combine_angle",
-        "Neighbouring patches whose contact angles differ by less than this share one plane",
-        **taken(COMBINE_ANGLE),
-        member="motion.combine_angle",
-    )
+    about = "Depth below the top of the rail at which the gauge is measured"
+    yield parameter("track.gauge_point", about, unit="m", **taken(GAUGE_POINT), nominal=1e-2)
+    about = "Tangent of the angle by which the rail's profile is turned towards the track"
+    yield parameter("rail.inclination", about, start=inclination, minimum=0.0, maximum=0.1)
+    surface: dict[str, Any] = {"enumeration": solver.SURFACE, "start": "Plane", "member": "case.conformal"}
+    yield parameter("patches.surface", "Surface of each patch", **surface)
+    about = "Greatest number of patches with their own plane; further patches share the plane of the last"
+    most: dict[str, Any] = {"start": PATCHES, "minimum": 1, "maximum": PATCHES, "member": "motion.most_patches"}
+    yield parameter("patches.max", about, integer=True, **most)
+    about = "Neighbouring patches closer than this share one plane"
+    apart: dict[str, Any] = {"nominal": 1e-2, "member": "motion.combine_distance"}
+    yield parameter("patches.combine_distance", about, **taken(COMBINE_DISTANCE), **apart)
+    about = "Neighbouring patches whose contact angles differ by less than this share one plane"
+    yield parameter("patches.combine_angle", about, **taken(COMBINE_ANGLE), member="motion.combine_angle")
     yield from solver.parameters()
     yield parameter("resolution.n_samples", "Samples of each separation", **taken(SAMPLES))
-    yield parameter(
-        "accumulation.wear_law",
-        "Wear law of the damage that accumulates on both profiles at each doStep; nothing accumulates in model exchange",
-        enumeration=ACCUMULATE,
-        start="Off",
+    about = (
+        "Wear law of the damage that accumulates on both profiles at each doStep; nothing accumulates in model exchange"
     )
-    yield parameter(
-        "accumulation.first",
-        "Arc length at which the first bin begins; 0 is the profile's point nearest to y = 0, positive to the field side",
-        unit="m",
-        start=-0.06,
-        minimum=-1.0,
-        maximum=1.0,
-    )
-    yield parameter(
-        "accumulation.width",
-        "Width of a bin",
-        start=1e-3,
-        minimum=1e-5,
-        maximum=1e-2,
-        nominal=1e-3,
-        member="ledger.width",
-    )
-    for axis, way in (("y", "Lateral"), ("z", "Vertical")):
-        yield parameter(
-            f"rail.k{axis}",
-            f"{way} stiffness of the springs under this rail, which has no mass; 0 is rigid",
-            nominal=1e7,
-            **of("elastic_rail", f"k{axis}"),
-        )
-    for axis, way in (("y", "Lateral"), ("z", "Vertical")):
-        yield parameter(
-            f"rail.preload_{axis}",
-            f"{way} external force on the rail on springs",
-            nominal=1e3,
-            **of("elastic_rail", f"preload_{axis}"),
-        )
-    yield parameter(
-        "reference_speed",
-        "Speed below which creepages refer to it; there a wheel resists sliding like a damper, so an axle can stop and stand",
-        **taken(REFERENCE_SPEED),
-        member="motion.slowest",
-    )
+    yield parameter("accumulation.wear_law", about, enumeration=ACCUMULATE, start="Off")
+    about = "Arc length at which the first bin begins; 0 is the profile's point nearest to y = 0, positive to the field side"
+    yield parameter("accumulation.first", about, unit="m", start=-0.06, minimum=-1.0, maximum=1.0)
+    width: dict[str, Any] = {"start": 1e-3, "minimum": 1e-5, "maximum": 1e-2, "nominal": 1e-3, "member": "ledger.width"}
+    yield parameter("accumulation.width", "Width of a bin", **width)
+    for axis, way in _WAYS.items():
+        about = f"{way} stiffness of the springs under this rail, which has no mass; 0 is rigid"
+        yield parameter(f"rail.k{axis}", about, nominal=1e7, member=f"elastic_rail.k{axis}")
+    for axis, way in _WAYS.items():
+        about = f"{way} external force on the rail on springs"
+        yield parameter(f"rail.preload_{axis}", about, nominal=1e3, member=f"elastic_rail.preload_{axis}")
+    slow = "Speed below which creepages refer to it; there a wheel resists sliding like a damper, so an axle can stop and stand"
+    yield parameter("reference_speed", slow, **taken(REFERENCE_SPEED), member="motion.slowest")
 
 
 def inputs() -> Iterable[Variable]:
     """Yield the inputs, which the FMU `WheelRailSurfaces` has too, as the outputs."""
     for name, member in zip(MOTION_INPUTS, GIVEN.names or (), strict=True):
         used = {"load.kind": ("Position",)} if name == "pose.z" else {}
-        given = of("given", member)
-        given["start"] = _STARTS.get(name, given["start"])
-        yield signal(name, nominal=10.0 if name == "velocity.x" else None, used=used, **given)
-    yield signal(
-        "load.normal_force",
+        start: dict[str, Any] = {"start": _STARTS[name]} if name in _STARTS else {}
+        nominal = 10.0 if name == "velocity.x" else None
+        yield signal(name, nominal=nominal, used=used, member=f"given.{member}", **start)
+    about = (
         "Vertical force on the wheel; load.kind says whether friction carries a part of it; not used with Position; "
-        + solver.NO_LOAD,
-        unit="N",
-        start=80e3,
-        minimum=solver.LEAST_LOAD,
-        nominal=1e5,
-        used={"load.kind": ("NormalForce", "VerticalForce")},
+        + solver.NO_LOAD
     )
-    yield signal("friction.coefficient", "Coefficient of friction", **of("case", "mu"))
+    by_load: dict[str, Any] = {"nominal": 1e5, "used": {"load.kind": ("NormalForce", "VerticalForce")}}
+    yield signal("load.normal_force", about, unit="N", start=80e3, minimum=solver.LEAST_LOAD, **by_load)
+    yield signal("friction.coefficient", "Coefficient of friction", member="case.mu")
     for name in OFFSET:
-        yield signal(name, **of("wheel_offset", name.removeprefix("offset.")))
+        yield signal(name, member=f"wheel_{name}")
 
 
 def outputs() -> Iterable[Variable]:
     """Yield the outputs. Those that accumulate come last."""
     for axis in "xyz":
-        yield output(
-            f"force.{axis}",
-            f"Force on the wheel, track coordinates, {axis}",
-            nominal=1e4,
-            member=f"total.F{axis}",
-        )
+        about = f"Force on the wheel, track coordinates, {axis}"
+        yield output(f"force.{axis}", about, nominal=1e4, member=f"total.F{axis}")
     for axis in "xyz":
-        yield output(
-            f"moment.{axis}",
-            f"Moment on the wheel about the wheelset's centre (0, pose.y, wheelset.z - wheel.radius), {axis}",
-            nominal=1e4,
-            member=f"total.M{axis}",
-        )
-    yield output(
-        "wheelset.z",
-        "Height pose.z of the solution: as given, or as found for the load",
-        nominal=1e-3,
-        member="total.z",
-    )
+        about = f"Moment on the wheel about the wheelset's centre (0, pose.y, wheelset.z - wheel.radius), {axis}"
+        yield output(f"moment.{axis}", about, nominal=1e4, member=f"total.M{axis}")
+    about = "Height pose.z of the solution: as given, or as found for the load"
+    yield output("wheelset.z", about, nominal=1e-3, member="total.z")
     yield output("pressure.max", "Greatest contact pressure", minimum=0.0, nominal=1e9, member="total.pmax")
     yield output(
         "patches.count", "Number of patches", integer=True, minimum=0, maximum=PATCHES, member="total.n_patches"
@@ -255,28 +189,15 @@ def outputs() -> Iterable[Variable]:
     yield solver.total("T_gamma", "Wear number times distance since start", "J", ("damage.T_gamma", "velocity.x"))
     yield solver.gap_error("total")
     yield output("wheel.Q", "Vertical force of the wheel on the rail, positive down", nominal=1e5, member="total.Q")
-    yield output(
-        "wheel.Y",
-        "Lateral force of the wheel on the rail, positive outwards: flange contact",
-        nominal=1e4,
-        member="total.Y",
-    )
-    yield output(
-        "wheel.Y_over_Q", "wheel.Y over wheel.Q; 0 without vertical force", nominal=0.1, member="total.Y_over_Q"
-    )
-    yield output(
-        "used_friction",
-        "Sum of the creep forces of all patches over that of the normal forces",
-        nominal=0.1,
-        member="total.used_friction",
-    )
-    for axis, way in (("y", "Lateral"), ("z", "Vertical")):
-        yield output(
-            f"rail.deflection_{axis}",
-            f"{way} deflection of the rail on springs, in balance",
-            nominal=1e-3,
-            member=f"elastic_rail.d{axis}",
-        )
+    about = "Lateral force of the wheel on the rail, positive outwards: flange contact"
+    yield output("wheel.Y", about, nominal=1e4, member="total.Y")
+    about = "wheel.Y over wheel.Q; 0 without vertical force"
+    yield output("wheel.Y_over_Q", about, nominal=0.1, member="total.Y_over_Q")
+    about = "Sum of the creep forces of all patches over that of the normal forces"
+    yield output("used_friction", about, nominal=0.1, member="total.used_friction")
+    for axis, way in _WAYS.items():
+        about = f"{way} deflection of the rail on springs, in balance"
+        yield output(f"rail.deflection_{axis}", about, nominal=1e-3, member=f"elastic_rail.d{axis}")
     yield solver.bend("total")
     yield solver.beyond("total")
     yield from _accumulated()
@@ -289,10 +210,5 @@ def _accumulated() -> Iterable[Variable]:
         unit, meaning = (SUMS | MAXIMA)[quantity]
         if (body, quantity) == ("rail", "wear"):
             unit = "m2"
-        yield output(
-            name,
-            f"Accumulated since start on the profile of the {body}: {meaning}",
-            unit=unit.replace(" ", "."),
-            shape=(BINS,),
-            depends=(),
-        )
+        about = f"Accumulated since start on the profile of the {body}: {meaning}"
+        yield output(name, about, unit=unit.replace(" ", "."), shape=(BINS,), depends=())

@@ -47,13 +47,10 @@ def table() -> Table:
 
 def _parameters() -> Iterable[Variable]:
     yield from (row for row in pair.parameters(0.0) if row.name not in ABSENT)
-    yield parameter(
-        "surfaces.reach",
-        "Distance before and behind the axle that is searched, doubled as long as the bodies come closer at its ends",
-        **taken(REACH),
-        nominal=0.1,
-        member="motion.reach",
+    about = (
+        "Distance before and behind the axle that is searched, doubled as long as the bodies come closer at its ends"
     )
+    yield parameter("surfaces.reach", about, **taken(REACH), nominal=0.1, member="motion.reach")
     yield parameter("surfaces.frame", "Frame of a patch", enumeration=FRAME, start="AboutX", member="motion.tilted")
 
 
@@ -64,15 +61,9 @@ def _inputs() -> Iterable[Variable]:
 
 
 def _place() -> Iterable[Variable]:
+    place = MEMBERS["pair_input"]
     yield signal(
-        "pose.station",
-        "Position of the axle along the slices of the rail",
-        unit="m",
-        **taken(MEMBERS["pair_input"]["station"]),
+        "pose.station", "Position of the axle along the slices of the rail", unit="m", **taken(place["station"])
     )
-    yield signal(
-        "pose.rotation",
-        "Angle by which the wheel has turned about the axle, negative when rolling forward; the integral of velocity.spin",
-        unit="rad",
-        **taken(MEMBERS["pair_input"]["rotation"]),
-    )
+    about = "Angle by which the wheel has turned about the axle, negative when rolling forward; the integral of velocity.spin"
+    yield signal("pose.rotation", about, unit="rad", **taken(place["rotation"]))

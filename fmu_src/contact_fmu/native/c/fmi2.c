@@ -15,6 +15,16 @@
 
 #define SHARED(call) ((fmi2Status)(call))
 #define NO_NULL(c, ...) REFUSE_NULL(c, fmi2Error, __VA_ARGS__)
+/* A function that is a call, at once or after a look at its pointers. */
+#define PASS(name, parameters, call) \
+    fmi2Status fmi2##name parameters { return SHARED(call); }
+#define PASS_IF(name, parameters, call, ...) \
+    fmi2Status fmi2##name parameters \
+    { \
+        NO_NULL(c, __VA_ARGS__); \
+        return SHARED(call); \
+    }
+typedef const fmi2ValueReference *References;
 
 static void write_log(const Log *log, const char *name, Status status, const char *category, char *message)
 {
@@ -27,10 +37,8 @@ static void write_log(const Log *log, const char *name, Status status, const cha
 const char *fmi2GetTypesPlatform(void) { return fmi2TypesPlatform; }
 const char *fmi2GetVersion(void) { return fmi2Version; }
 
-fmi2Status fmi2SetDebugLogging(fmi2Component c, fmi2Boolean on, size_t n, const fmi2String names[])
-{
-    return SHARED(choose_log(c, __func__, on, n, names));
-}
+PASS(SetDebugLogging, (fmi2Component c, fmi2Boolean on, size_t n, const fmi2String names[]),
+     choose_log(c, __func__, on, n, names))
 
 fmi2Component fmi2Instantiate(fmi2String name, fmi2Type type, fmi2String guid, fmi2String resources,
                               const fmi2CallbackFunctions *functions, fmi2Boolean visible, fmi2Boolean logging)
@@ -54,10 +62,10 @@ fmi2Status fmi2SetupExperiment(fmi2Component c, fmi2Boolean has_tolerance, fmi2R
     return SHARED(set_up(c, __func__, start, has_stop, stop));
 }
 
-fmi2Status fmi2EnterInitializationMode(fmi2Component c) { return SHARED(enter_initialization(c, __func__)); }
-fmi2Status fmi2ExitInitializationMode(fmi2Component c) { return SHARED(exit_initialization(c, __func__)); }
-fmi2Status fmi2Terminate(fmi2Component c) { return SHARED(terminate(c, __func__)); }
-fmi2Status fmi2Reset(fmi2Component c) { return SHARED(reset(c, __func__)); }
+PASS(EnterInitializationMode, (fmi2Component c), enter_initialization(c, __func__))
+PASS(ExitInitializationMode, (fmi2Component c), exit_initialization(c, __func__))
+PASS(Terminate, (fmi2Component c), terminate(c, __func__))
+PASS(Reset, (fmi2Component c), reset(c, __func__))
 
 /* ---------------------------------------------------------------- variables (no table has Strings) */
 
@@ -74,18 +82,6 @@ fmi2Status fmi2Reset(fmi2Component c) { return SHARED(reset(c, __func__)); }
 GET(fmi2GetReal, fmi2Real, REAL)
 GET(fmi2GetInteger, fmi2Integer, INTEGER | ENUMERATION | COUNT)
 
-fmi2Status fmi2GetBoolean(fmi2Component c, const fmi2ValueReference refs[], size_t n, fmi2Boolean values[])
-{
-    (void)values;
-    return SHARED(before_get(c, __func__, refs, n, 0, n));
-}
-
-fmi2Status fmi2GetString(fmi2Component c, const fmi2ValueReference refs[], size_t n, fmi2String values[])
-{
-    (void)values;
-    return SHARED(before_get(c, __func__, refs, n, 0, n));
-}
-
 #define SET(function, type, kinds) \
     fmi2Status function(fmi2Component c, const fmi2ValueReference refs[], size_t n, const type values[]) \
     { \
@@ -99,47 +95,37 @@ fmi2Status fmi2GetString(fmi2Component c, const fmi2ValueReference refs[], size_
 SET(fmi2SetReal, fmi2Real, REAL)
 SET(fmi2SetInteger, fmi2Integer, INTEGER | ENUMERATION | COUNT)
 
-fmi2Status fmi2SetBoolean(fmi2Component c, const fmi2ValueReference refs[], size_t n, const fmi2Boolean values[])
-{
-    (void)values;
-    return SHARED(before_set(c, __func__, refs, n, 0, n));
-}
+/* No table has variables of these types. */
+#define ABSENT(type) \
+    fmi2Status fmi2Get##type(fmi2Component c, References refs, size_t n, fmi2##type values[]) \
+    { \
+        (void)values; \
+        return SHARED(before_get(c, __func__, refs, n, 0, n)); \
+    } \
+    fmi2Status fmi2Set##type(fmi2Component c, References refs, size_t n, const fmi2##type values[]) \
+    { \
+        (void)values; \
+        return SHARED(before_set(c, __func__, refs, n, 0, n)); \
+    }
+ABSENT(Boolean)
+ABSENT(String)
 
-fmi2Status fmi2SetString(fmi2Component c, const fmi2ValueReference refs[], size_t n, const fmi2String values[])
-{
-    (void)values;
-    return SHARED(before_set(c, __func__, refs, n, 0, n));
-}
-
-fmi2Status fmi2GetDirectionalDerivative(fmi2Component c, const fmi2ValueReference unknowns[], size_t n_unknowns,
-                                        const fmi2ValueReference knowns[], size_t n_knowns, const fmi2Real seed[],
-                                        fmi2Real result[])
-{
-    NO_NULL(c, IF(n_unknowns, unknowns), IF(n_knowns, knowns), IF(n_knowns, seed), IF(n_unknowns, result));
-    return SHARED(derivative(c, __func__, unknowns, n_unknowns, knowns, n_knowns, seed, n_knowns,
-                             result, n_unknowns));
-}
+PASS_IF(GetDirectionalDerivative,
+        (fmi2Component c, References unknowns, size_t n_unknowns, References knowns, size_t n_knowns, const fmi2Real seed[],
+         fmi2Real result[]),
+        derivative(c, __func__, unknowns, n_unknowns, knowns, n_knowns, seed, n_knowns, result, n_unknowns),
+        IF(n_unknowns, unknowns), IF(n_knowns, knowns), IF(n_knowns, seed), IF(n_unknowns, result))
 
 /* ---------------------------------------------------------------- states */
 
-fmi2Status fmi2GetFMUstate(fmi2Component c, fmi2FMUstate *state) { return SHARED(get_state(c, __func__, state)); }
-fmi2Status fmi2SetFMUstate(fmi2Component c, fmi2FMUstate state) { return SHARED(set_state(c, __func__, state)); }
-fmi2Status fmi2FreeFMUstate(fmi2Component c, fmi2FMUstate *state) { return SHARED(free_state(c, __func__, state)); }
-
-fmi2Status fmi2SerializedFMUstateSize(fmi2Component c, fmi2FMUstate state, size_t *size)
-{
-    return SHARED(state_size(c, __func__, state, size));
-}
-
-fmi2Status fmi2SerializeFMUstate(fmi2Component c, fmi2FMUstate state, fmi2Byte bytes[], size_t size)
-{
-    return SHARED(serialize(c, __func__, state, bytes, size));
-}
-
-fmi2Status fmi2DeSerializeFMUstate(fmi2Component c, const fmi2Byte bytes[], size_t size, fmi2FMUstate *state)
-{
-    return SHARED(deserialize(c, __func__, bytes, size, state));
-}
+PASS(GetFMUstate, (fmi2Component c, fmi2FMUstate *state), get_state(c, __func__, state))
+PASS(SetFMUstate, (fmi2Component c, fmi2FMUstate state), set_state(c, __func__, state))
+PASS(FreeFMUstate, (fmi2Component c, fmi2FMUstate *state), free_state(c, __func__, state))
+PASS(SerializedFMUstateSize, (fmi2Component c, fmi2FMUstate state, size_t *size), state_size(c, __func__, state, size))
+PASS(SerializeFMUstate, (fmi2Component c, fmi2FMUstate state, fmi2Byte bytes[], size_t size),
+     serialize(c, __func__, state, bytes, size))
+PASS(DeSerializeFMUstate, (fmi2Component c, const fmi2Byte bytes[], size_t size, fmi2FMUstate *state),
+     deserialize(c, __func__, bytes, size, state))
 
 /* ---------------------------------------------------------------- co-simulation */
 
@@ -168,54 +154,24 @@ fmi2Status fmi2CancelStep(fmi2Component c)
     return fmi2OK;
 }
 
-static fmi2Status unknown_status(const Instance *instance, const char *function)
-{
-    return SHARED(report(instance, LOG_DISCARD, "%s: unknown status kind", function));
-}
-
-fmi2Status fmi2GetStatus(fmi2Component c, const fmi2StatusKind kind, fmi2Status *value)
-{
-    NO_NULL(c, value);
-    REQUIRE_SLAVE(STEPPED);
-    if (kind != fmi2DoStepStatus) return unknown_status(c, __func__);
-    *value = (fmi2Status)((Instance *)c)->is.last_step;
-    return fmi2OK;
-}
-
-fmi2Status fmi2GetRealStatus(fmi2Component c, const fmi2StatusKind kind, fmi2Real *value)
-{
-    NO_NULL(c, value);
-    REQUIRE_SLAVE(STEPPED);
-    if (kind != fmi2LastSuccessfulTime) return unknown_status(c, __func__);
-    *value = ((Instance *)c)->is.time;
-    return fmi2OK;
-}
-
-fmi2Status fmi2GetIntegerStatus(fmi2Component c, const fmi2StatusKind kind, fmi2Integer *value)
-{
-    (void)kind;
-    NO_NULL(c, value);
-    REQUIRE_SLAVE(STEPPED);
-    return unknown_status(c, __func__);
-}
-
-fmi2Status fmi2GetBooleanStatus(fmi2Component c, const fmi2StatusKind kind, fmi2Boolean *value)
-{
-    NO_NULL(c, value);
-    REQUIRE_SLAVE(STEPPED);
-    if (kind != fmi2Terminated) return unknown_status(c, __func__);
-    *value = ((Instance *)c)->is.phase == STEP_FAILED; /* a host may ask for another step, but without other inputs it fails too */
-    return fmi2OK;
-}
-
-fmi2Status fmi2GetStringStatus(fmi2Component c, const fmi2StatusKind kind, fmi2String *value)
-{
-    NO_NULL(c, value);
-    REQUIRE_SLAVE(STEPPED);
-    if (kind != fmi2PendingStatus) return unknown_status(c, __func__);
-    *value = "";
-    return fmi2OK;
-}
+/* One value after a step, of the kind that its function has. */
+#define GET_STATUS(name, type, known, given) \
+    fmi2Status fmi2Get##name(fmi2Component c, const fmi2StatusKind kind, type *value) \
+    { \
+        const Instance *instance = c; \
+        (void)kind; \
+        NO_NULL(c, value); \
+        REQUIRE_SLAVE(STEPPED); \
+        if (!(known)) return SHARED(report(instance, LOG_DISCARD, "%s: unknown status kind", __func__)); \
+        *value = given; \
+        return fmi2OK; \
+    }
+GET_STATUS(Status, fmi2Status, kind == fmi2DoStepStatus, (fmi2Status)instance->is.last_step)
+GET_STATUS(RealStatus, fmi2Real, kind == fmi2LastSuccessfulTime, instance->is.time)
+GET_STATUS(IntegerStatus, fmi2Integer, false, 0)
+/* A host may ask for another step after one that failed, but without other inputs it fails too. */
+GET_STATUS(BooleanStatus, fmi2Boolean, kind == fmi2Terminated, instance->is.phase == STEP_FAILED)
+GET_STATUS(StringStatus, fmi2String, kind == fmi2PendingStatus, "")
 
 /* Inputs are constant over a step and outputs have no derivatives, as the capability flags state. */
 fmi2Status fmi2SetRealInputDerivatives(fmi2Component c, const fmi2ValueReference refs[], size_t n,
@@ -238,9 +194,9 @@ fmi2Status fmi2GetRealOutputDerivatives(fmi2Component c, const fmi2ValueReferenc
 
 /* ---------------------------------------------------------------- model exchange */
 
-fmi2Status fmi2EnterEventMode(fmi2Component c) { return SHARED(enter_event(c, __func__)); }
-fmi2Status fmi2EnterContinuousTimeMode(fmi2Component c) { return SHARED(enter_continuous(c, __func__)); }
-fmi2Status fmi2SetTime(fmi2Component c, fmi2Real time) { return SHARED(set_time(c, __func__, time)); }
+PASS(EnterEventMode, (fmi2Component c), enter_event(c, __func__))
+PASS(EnterContinuousTimeMode, (fmi2Component c), enter_continuous(c, __func__))
+PASS(SetTime, (fmi2Component c, fmi2Real time), set_time(c, __func__, time))
 
 fmi2Status fmi2NewDiscreteStates(fmi2Component c, fmi2EventInfo *info)
 {
@@ -259,29 +215,10 @@ fmi2Status fmi2CompletedIntegratorStep(fmi2Component c, fmi2Boolean no_set_state
     return SHARED(completed_step(c, __func__));
 }
 
-fmi2Status fmi2SetContinuousStates(fmi2Component c, const fmi2Real x[], size_t n)
-{
-    NO_NULL(c, IF(n, x));
-    return SHARED(set_none(c, __func__, n));
-}
-
-fmi2Status fmi2GetContinuousStates(fmi2Component c, fmi2Real x[], size_t n)
-{
-    NO_NULL(c, IF(n, x));
-    return SHARED(get_none(c, __func__, n));
-}
-
-fmi2Status fmi2GetDerivatives(fmi2Component c, fmi2Real derivatives[], size_t n)
-{
-    NO_NULL(c, IF(n, derivatives));
-    return SHARED(get_none(c, __func__, n));
-}
-
-fmi2Status fmi2GetNominalsOfContinuousStates(fmi2Component c, fmi2Real nominals[], size_t n)
-{
-    NO_NULL(c, IF(n, nominals));
-    return SHARED(get_none(c, __func__, n));
-}
+PASS_IF(SetContinuousStates, (fmi2Component c, const fmi2Real x[], size_t n), set_none(c, __func__, n), IF(n, x))
+PASS_IF(GetContinuousStates, (fmi2Component c, fmi2Real x[], size_t n), get_none(c, __func__, n), IF(n, x))
+PASS_IF(GetDerivatives, (fmi2Component c, fmi2Real x[], size_t n), get_none(c, __func__, n), IF(n, x))
+PASS_IF(GetNominalsOfContinuousStates, (fmi2Component c, fmi2Real x[], size_t n), get_none(c, __func__, n), IF(n, x))
 
 fmi2Status fmi2GetEventIndicators(fmi2Component c, fmi2Real indicators[], size_t n)
 {

@@ -4,6 +4,16 @@
 
 #define SHARED(call) ((fmi3Status)(call))
 #define NO_NULL(c, ...) REFUSE_NULL(c, fmi3Error, __VA_ARGS__)
+/* A function that is a call, at once or after a look at its pointers. */
+#define PASS(name, parameters, call) \
+    fmi3Status fmi3##name parameters { return SHARED(call); }
+#define PASS_IF(name, parameters, call, ...) \
+    fmi3Status fmi3##name parameters \
+    { \
+        NO_NULL(c, __VA_ARGS__); \
+        return SHARED(call); \
+    }
+typedef const fmi3ValueReference *References;
 
 static void write_log(const Log *log, const char *name, Status status, const char *category, char *message)
 {
@@ -15,10 +25,8 @@ static void write_log(const Log *log, const char *name, Status status, const cha
 
 const char *fmi3GetVersion(void) { return fmi3Version; }
 
-fmi3Status fmi3SetDebugLogging(fmi3Instance c, fmi3Boolean on, size_t n, const fmi3String names[])
-{
-    return SHARED(choose_log(c, __func__, on, n, names));
-}
+PASS(SetDebugLogging, (fmi3Instance c, fmi3Boolean on, size_t n, const fmi3String names[]),
+     choose_log(c, __func__, on, n, names))
 
 /* ---------------------------------------------------------------- from instantiate to free */
 
@@ -74,11 +82,11 @@ fmi3Status fmi3EnterInitializationMode(fmi3Instance c, fmi3Boolean has_tolerance
     return SHARED(status == OK ? enter_initialization(c, __func__) : status);
 }
 
-fmi3Status fmi3ExitInitializationMode(fmi3Instance c) { return SHARED(exit_initialization(c, __func__)); }
-fmi3Status fmi3EnterConfigurationMode(fmi3Instance c) { return SHARED(enter_configuration(c, __func__)); }
-fmi3Status fmi3ExitConfigurationMode(fmi3Instance c) { return SHARED(exit_configuration(c, __func__)); }
-fmi3Status fmi3Terminate(fmi3Instance c) { return SHARED(terminate(c, __func__)); }
-fmi3Status fmi3Reset(fmi3Instance c) { return SHARED(reset(c, __func__)); }
+PASS(ExitInitializationMode, (fmi3Instance c), exit_initialization(c, __func__))
+PASS(EnterConfigurationMode, (fmi3Instance c), enter_configuration(c, __func__))
+PASS(ExitConfigurationMode, (fmi3Instance c), exit_configuration(c, __func__))
+PASS(Terminate, (fmi3Instance c), terminate(c, __func__))
+PASS(Reset, (fmi3Instance c), reset(c, __func__))
 
 /* ---------------------------------------------------------------- variables */
 
@@ -154,21 +162,14 @@ fmi3Status fmi3SetBinary(fmi3Instance c, const fmi3ValueReference refs[], size_t
     return SHARED(before_set(c, __func__, refs, n, 0, n_values));
 }
 
-fmi3Status fmi3GetDirectionalDerivative(fmi3Instance c, const fmi3ValueReference unknowns[], size_t n_unknowns,
-                                        const fmi3ValueReference knowns[], size_t n_knowns, const fmi3Float64 seed[],
-                                        size_t n_seed, fmi3Float64 result[], size_t n_result)
-{
-    NO_NULL(c, IF(n_unknowns, unknowns), IF(n_knowns, knowns), IF(n_seed, seed), IF(n_result, result));
-    return SHARED(derivative(c, __func__, unknowns, n_unknowns, knowns, n_knowns, seed, n_seed, result, n_result));
-}
-
-fmi3Status fmi3GetAdjointDerivative(fmi3Instance c, const fmi3ValueReference unknowns[], size_t n_unknowns,
-                                    const fmi3ValueReference knowns[], size_t n_knowns, const fmi3Float64 seed[],
-                                    size_t n_seed, fmi3Float64 result[], size_t n_result)
-{
-    NO_NULL(c, IF(n_unknowns, unknowns), IF(n_knowns, knowns), IF(n_seed, seed), IF(n_result, result));
-    return SHARED(adjoint(c, __func__, unknowns, n_unknowns, knowns, n_knowns, seed, n_seed, result, n_result));
-}
+#define DERIVATIVE(name, function) \
+    PASS_IF(name, \
+            (fmi3Instance c, References unknowns, size_t n_unknowns, References knowns, size_t n_knowns, \
+             const fmi3Float64 seed[], size_t n_seed, fmi3Float64 result[], size_t n_result), \
+            function(c, __func__, unknowns, n_unknowns, knowns, n_knowns, seed, n_seed, result, n_result), \
+            IF(n_unknowns, unknowns), IF(n_knowns, knowns), IF(n_seed, seed), IF(n_result, result))
+DERIVATIVE(GetDirectionalDerivative, derivative)
+DERIVATIVE(GetAdjointDerivative, adjoint)
 
 /* ---------------------------------------------------------------- not provided, according to the capability flags */
 
@@ -203,29 +204,19 @@ NOT_PROVIDED(fmi3SetShiftFraction, const fmi3ValueReference refs[], size_t n, co
 NOT_PROVIDED(fmi3ActivateModelPartition, fmi3ValueReference clock, fmi3Float64 time)
 #pragma GCC diagnostic pop
 
-fmi3Status fmi3EvaluateDiscreteStates(fmi3Instance c) { return not_provided(c, __func__); }
-fmi3Status fmi3EnterStepMode(fmi3Instance c) { return not_provided(c, __func__); } /* leaves the event mode of co-simulation */
+PASS(EvaluateDiscreteStates, (fmi3Instance c), not_provided(c, __func__))
+PASS(EnterStepMode, (fmi3Instance c), not_provided(c, __func__)) /* leaves the event mode of co-simulation */
 
 /* ---------------------------------------------------------------- states */
 
-fmi3Status fmi3GetFMUState(fmi3Instance c, fmi3FMUState *state) { return SHARED(get_state(c, __func__, state)); }
-fmi3Status fmi3SetFMUState(fmi3Instance c, fmi3FMUState state) { return SHARED(set_state(c, __func__, state)); }
-fmi3Status fmi3FreeFMUState(fmi3Instance c, fmi3FMUState *state) { return SHARED(free_state(c, __func__, state)); }
-
-fmi3Status fmi3SerializedFMUStateSize(fmi3Instance c, fmi3FMUState state, size_t *size)
-{
-    return SHARED(state_size(c, __func__, state, size));
-}
-
-fmi3Status fmi3SerializeFMUState(fmi3Instance c, fmi3FMUState state, fmi3Byte bytes[], size_t size)
-{
-    return SHARED(serialize(c, __func__, state, bytes, size));
-}
-
-fmi3Status fmi3DeserializeFMUState(fmi3Instance c, const fmi3Byte bytes[], size_t size, fmi3FMUState *state)
-{
-    return SHARED(deserialize(c, __func__, bytes, size, state));
-}
+PASS(GetFMUState, (fmi3Instance c, fmi3FMUState *state), get_state(c, __func__, state))
+PASS(SetFMUState, (fmi3Instance c, fmi3FMUState state), set_state(c, __func__, state))
+PASS(FreeFMUState, (fmi3Instance c, fmi3FMUState *state), free_state(c, __func__, state))
+PASS(SerializedFMUStateSize, (fmi3Instance c, fmi3FMUState state, size_t *size), state_size(c, __func__, state, size))
+PASS(SerializeFMUState, (fmi3Instance c, fmi3FMUState state, fmi3Byte bytes[], size_t size),
+     serialize(c, __func__, state, bytes, size))
+PASS(DeserializeFMUState, (fmi3Instance c, const fmi3Byte bytes[], size_t size, fmi3FMUState *state),
+     deserialize(c, __func__, bytes, size, state))
 
 /* ---------------------------------------------------------------- co-simulation */
 
@@ -244,9 +235,9 @@ fmi3Status fmi3DoStep(fmi3Instance c, fmi3Float64 time, fmi3Float64 h, fmi3Boole
 
 /* ---------------------------------------------------------------- model exchange */
 
-fmi3Status fmi3EnterEventMode(fmi3Instance c) { return SHARED(enter_event(c, __func__)); }
-fmi3Status fmi3EnterContinuousTimeMode(fmi3Instance c) { return SHARED(enter_continuous(c, __func__)); }
-fmi3Status fmi3SetTime(fmi3Instance c, fmi3Float64 time) { return SHARED(set_time(c, __func__, time)); }
+PASS(EnterEventMode, (fmi3Instance c), enter_event(c, __func__))
+PASS(EnterContinuousTimeMode, (fmi3Instance c), enter_continuous(c, __func__))
+PASS(SetTime, (fmi3Instance c, fmi3Float64 time), set_time(c, __func__, time))
 
 fmi3Status fmi3UpdateDiscreteStates(fmi3Instance c, fmi3Boolean *needs_update, fmi3Boolean *terminate_simulation,
                                     fmi3Boolean *nominals_changed, fmi3Boolean *values_changed,
@@ -267,29 +258,10 @@ fmi3Status fmi3CompletedIntegratorStep(fmi3Instance c, fmi3Boolean no_set_state_
     return SHARED(completed_step(c, __func__));
 }
 
-fmi3Status fmi3SetContinuousStates(fmi3Instance c, const fmi3Float64 x[], size_t n)
-{
-    NO_NULL(c, IF(n, x));
-    return SHARED(set_none(c, __func__, n));
-}
-
-fmi3Status fmi3GetContinuousStates(fmi3Instance c, fmi3Float64 x[], size_t n)
-{
-    NO_NULL(c, IF(n, x));
-    return SHARED(get_none(c, __func__, n));
-}
-
-fmi3Status fmi3GetContinuousStateDerivatives(fmi3Instance c, fmi3Float64 derivatives[], size_t n)
-{
-    NO_NULL(c, IF(n, derivatives));
-    return SHARED(get_none(c, __func__, n));
-}
-
-fmi3Status fmi3GetNominalsOfContinuousStates(fmi3Instance c, fmi3Float64 nominals[], size_t n)
-{
-    NO_NULL(c, IF(n, nominals));
-    return SHARED(get_none(c, __func__, n));
-}
+PASS_IF(SetContinuousStates, (fmi3Instance c, const fmi3Float64 x[], size_t n), set_none(c, __func__, n), IF(n, x))
+PASS_IF(GetContinuousStates, (fmi3Instance c, fmi3Float64 x[], size_t n), get_none(c, __func__, n), IF(n, x))
+PASS_IF(GetContinuousStateDerivatives, (fmi3Instance c, fmi3Float64 x[], size_t n), get_none(c, __func__, n), IF(n, x))
+PASS_IF(GetNominalsOfContinuousStates, (fmi3Instance c, fmi3Float64 x[], size_t n), get_none(c, __func__, n), IF(n, x))
 
 fmi3Status fmi3GetEventIndicators(fmi3Instance c, fmi3Float64 indicators[], size_t n)
 {
@@ -297,14 +269,5 @@ fmi3Status fmi3GetEventIndicators(fmi3Instance c, fmi3Float64 indicators[], size
     return SHARED(get_none(c, __func__, n));
 }
 
-fmi3Status fmi3GetNumberOfContinuousStates(fmi3Instance c, size_t *n)
-{
-    NO_NULL(c, n);
-    return SHARED(count_none(c, __func__, n));
-}
-
-fmi3Status fmi3GetNumberOfEventIndicators(fmi3Instance c, size_t *n)
-{
-    NO_NULL(c, n);
-    return SHARED(count_none(c, __func__, n));
-}
+PASS_IF(GetNumberOfContinuousStates, (fmi3Instance c, size_t *n), count_none(c, __func__, n), n)
+PASS_IF(GetNumberOfEventIndicators, (fmi3Instance c, size_t *n), count_none(c, __func__, n), n)
