@@ -247,35 +247,35 @@ def _start_of(n, quick, arrays):
 def _press_for_load(mode, force, touch, nodes, root, arrays):
     """Find the height that carries `force` by solving the normal problem of a single patch for its load.
 
-    Each solution lays the patch at the height that the last one has found; the first one is rough. With Height.VERTICAL the
-    tangential problem is solved too, which tells the share of a load that friction leaves. Return the number of strips; 0 where
-    there are more patches than one, -1 where strips that find no rest quickly have brought `root` near the height.
+    Each solution lays the patch at the height that the last one has found, and asks for the load that would have left `force`
+    there; the first one is rough. With Height.VERTICAL the tangential problem is solved too. Return the number of strips; 0
+    where there are more patches than one, -1 where strips that find no rest quickly have brought `root` near the height.
     """
     search, motion, result, case = arrays.search, arrays.search.motion[0], arrays.result[0], arrays.patch_case[0]
-    left, quick = 0.0, False
+    share, quick = 1.0, False
     for k in range(_MOST_LAID):
         if _start_of(describe(search, touch + root.x, nodes), quick, arrays) != 1:
             return 0
         patch, rough = search.patches[0], k == 0
         set_case(patch, motion, arrays.case[0], case)
         cosine = math.cos(patch.angle) * math.cos(patch.pitch)
-        left = cosine if rough or mode == Height.LOAD else left
+        asked = force / (share * cosine)
         samples, of_patch = workspace_of(0, arrays)
         clear(result)
-        n_strips = strips_under(force / left, rough, samples, case, of_patch, result)
-        missed = abs(result.N * left - force) > _ROUGH * force
+        n_strips = strips_under(asked, rough, samples, case, of_patch, result)
+        missed = abs(result.N - asked) > _ROUGH * asked
         if n_strips == 0 or missed or result.status == Status.NOT_CONVERGED or not result.stiffness > 0.0:
             return 0
         growth, rise = result.stiffness / result.N * cosine, (result.approach - patch.approach) / cosine
         motion.z, case.amount, patch.approach = touch + root.x + rise, result.approach, result.approach
         patch.point_z += rise  # the arms of its forces are those of its creepages
-        quick, reached = result.iterations <= _QUICK, force
+        quick, reached = result.iterations <= _QUICK, result.N * cosine
         if mode == Height.VERTICAL:
             _solve(1, n_strips, rough, False, arrays)
             reached = -arrays.total[0].Fz
             if not reached > 0.0:
                 return 0
-            left *= reached / force
+        share = reached / (asked * cosine)
         motion.missed = abs(reached - force) / force
         if quick and not rough and abs(rise) * growth <= _LAID and motion.missed <= _ITERATED:
             root.evaluations = k + 1

@@ -177,8 +177,11 @@ def _level_lone(n, n_panels, vectors):
 
 
 @kernel
-def _report(problem, delta, n_panels):
-    """Write the strips and their resultants, where ANALYN's still are. Return the number of strips."""
+def _report(problem, carries, delta, n_panels):
+    """Write the strips and their resultants, where ANALYN's still are. Return the number of strips.
+
+    If `carries`, they carry the load of the problem exactly; otherwise what the approach leaves them.
+    """
     workspace, strips, result, sep = problem.workspace, problem.workspace.strips, problem.result, problem.sep
     if problem.by_load and delta > 0.0:  # local aspect ratios at this approach, which is not ANALYN's
         prepare(sep.y, sep.g, sep.A, sep.y.size, problem.touch, delta, workspace.space.grid)
@@ -188,10 +191,10 @@ def _report(problem, delta, n_panels):
     N = 0.0
     for i in range(count):
         N += 0.5 * math.pi * strips[Strip.P0, i] * strips[Strip.A, i] * strips[Strip.DY, i]
-    if problem.by_load and N > 0.0:  # end strips under tension carry nothing, so 1e-5 of the load goes to the others
+    if carries and N > 0.0:  # end strips under tension carry nothing, so 1e-5 of the load goes to the others
         for i in range(count):
             strips[Strip.P0, i] *= problem.amount / N
-    N = problem.amount if problem.by_load else N
+    N = problem.amount if carries else N
     # d(ln N)/d(ln delta) of ANALYN, exact in Hertz contact; semi-ellipses cannot represent the edge pressure of a punch
     result.stiffness *= (result.approach - problem.touch) / result.N * N / delta if delta > 0.0 else 0.0
     result.N = N
@@ -275,7 +278,7 @@ def _solve(sep, case, load, brief, workspace, result):
     early = not left and state.number - state.begun < FREEZE
     remember(n_panels if early else 0, n, start_low, start_high, skew > 0.0, workspace)
     lone = skew > 0.0 and _level_lone(n, n_panels, space.vectors)
-    count = _report(problem, state.approach, n_panels)
+    count = _report(problem, case.load_kind != LoadKind.APPROACH, state.approach, n_panels)
     # parts of strips would make up for the pressure that was taken away
     result.pmax = 0.0 if lone or brief else largest_pressure(count, problem)
     if not rests and result.status != Status.OUT_OF_RANGE:
@@ -292,7 +295,8 @@ def _solve(sep, case, load, brief, workspace, result):
 def strips_under(load, brief, sep, case, workspace, result):
     """As `strip_halfspace`, for a `load` > 0 [N] with ANALYN's start at the approach of the case.
 
-    A `brief` solution ends at `BRIEF`, and no peak is read.
+    Its strips carry more by what end strips under tension would take off, as they do at this approach. A `brief` solution ends
+    at `BRIEF`, and no peak is read.
     """
     image, space = is_image(sep.g), workspace.space
     face(image, space.memory)
