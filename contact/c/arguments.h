@@ -15,12 +15,12 @@ enum {
 };
 
 /* Lists of members, M(member, kind, low, high, default, ...), besides those of wheelrail_records.h. */
-#define OF_CONTACT_OPTIONS(M, least, most, usual, ...)                                                          \
+#define OF_CONTACT_OPTIONS(M, samples, ...)                                                                     \
     M(normal, WHOLE, 0, N_NORMAL - 1, WR_DEFAULT_NORMAL, __VA_ARGS__)                                           \
     M(tangential, WHOLE, 0, N_TANGENTIAL - 1, WR_DEFAULT_TANGENTIAL, __VA_ARGS__)                               \
-    M(n_samples, WHOLE, least, most, usual, __VA_ARGS__) WR_CONTACT_OPTIONS_RANGES(M, __VA_ARGS__)
-#define OF_CONTACT(M, ...) OF_CONTACT_OPTIONS(M, 3, 100000, 101, __VA_ARGS__)
-#define OF_PATCH(M, ...) OF_CONTACT_OPTIONS(M, 5, 2001, 81, __VA_ARGS__)
+    M(n_samples, WHOLE, samples, __VA_ARGS__) WR_CONTACT_OPTIONS_RANGES(M, __VA_ARGS__)
+#define OF_CONTACT(M, ...) OF_CONTACT_OPTIONS(M, WR_SEPARATION_SAMPLES, __VA_ARGS__)
+#define OF_PATCH(M, ...) OF_CONTACT_OPTIONS(M, WR_PAIR_SAMPLES, __VA_ARGS__)
 #define OF_PAIR(M, ...) M(side, SIGN, -1, 1, 1, __VA_ARGS__) WR_PAIR_OPTIONS_RANGES(M, __VA_ARGS__)
 /* Methods, material and friction of a case.  The first three depend on options. */
 #define OF_SURFACE(M, ...)                                                                                      \

@@ -190,27 +190,18 @@ static int failure(int64_t code, int64_t height) {
 }
 
 /* Solve checked input.  Return 0 or an error. */
-static int solve_pair(void *memory, int cold, const wr_pair_input *in, wr_pair_answer *answer) {
+static int solve_pair(void *memory, const wr_pair_input *input, wr_pair_answer *answer) {
     Head *head = memory;
-    wr_case surface = in->surface;
-    wr_elastic_rail rail = in->rail, deflected;
-    wr_motion motion = in->motion;
-    wr_wheel_offset offset = in->offset;
+    wr_pair_input in = *input;
     wr_pair_answer made = {.size = sizeof made};
-    if (head->kind == SURFACES && motion.vx < 0.0) return bad(A_motion_vx, R_BACKWARDS);
-    surface.speed = fabs(motion.vx);
-    rail.dy = rail.dz = 0.0;
-    rail.balanced = 0;
+    if (head->kind == SURFACES && in.motion.vx < 0.0) return bad(A_motion_vx, R_BACKWARDS);
+    in.surface.speed = fabs(in.motion.vx);
+    in.rail.dy = in.rail.dz = 0.0;
+    in.rail.balanced = 0;
     head->answered = 0;
-    double *work = work_of(memory);
-    int64_t n = head->kind == SURFACES
-                    ? CALL(surfaces_solve, head->sizes, work, cold, in->height, in->amount, in->station, in->rotation,
-                           &motion, &surface, &rail, &offset, &made.total, made.patches, &deflected)
-                    : CALL(pair_solve, head->sizes, work, cold, in->height, in->amount, in->distance, &motion, &surface,
-                           &rail, &offset, &made.total, made.patches, &deflected);
-    if (n < 0) return failure(n, in->height);
-    made.deflection_y = deflected.dy, made.deflection_z = deflected.dz;
-    head->answered = 1, head->n_patches = n, head->problem = surface;
+    int64_t n = CALL_PAIR(solve, head, work_of(memory), &in, &made);
+    if (n < 0) return failure(n, in.height);
+    head->answered = 1, head->n_patches = n, head->problem = in.surface;
     *answer = made;
     return 0;
 }
@@ -219,7 +210,7 @@ int wr_pair_solve(void *memory, const wr_pair_input *input, wr_pair_answer *answ
     TRY(check_pair(memory));
     TRY(check_input(input, &((Head *)memory)->patch));
     TRY(wri_check_answer_struct(answer));
-    TRY(solve_pair(memory, 0, input, answer));
+    TRY(solve_pair(memory, input, answer));
     return code_of(answer->total.status);
 }
 
@@ -244,7 +235,7 @@ int wr_pair_derivatives(void *memory, const wr_pair_input *input, double *jacobi
     TRY(check_input(input, &head->patch));
     TRY(aligned(jacobian, A_jacobian));
     wr_pair_answer answer;
-    TRY(solve_pair(memory, 0, input, &answer));
+    TRY(solve_pair(memory, input, &answer));
     CALL_PAIR(derivatives, head, work_of(memory), input->height, jacobian);
     return code_of(answer.total.status);
 }

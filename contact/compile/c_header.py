@@ -17,7 +17,7 @@ from contact.damage import DamageParameters
 from contact.friction import as_friction
 from contact.geometry.wheelset import TAPE_FROM_FLANGE_BACK
 from contact.inputs.material import STEEL
-from contact.inputs.options import ITERATIONS, MEMBERS, SURFACE, Real, Whole
+from contact.inputs.options import ITERATIONS, MEMBERS, SAMPLES, SEPARATION_SAMPLES, SURFACE, Real, Whole
 from contact.inputs.plausibility import USUAL
 from contact.kernels import records
 from contact.kernels.enumerations import FrictionLaw, Height, LoadKind, SlipVelocity, Status, WearLaw
@@ -39,6 +39,7 @@ _RECORDS = {
     "damage": "wr_damage",
     "total": "wr_total",
     "damage_parameters": "wr_damage_parameters",
+    "pair_input": "wr_pair_input",
 }
 _ENUMERATIONS = {
     LoadKind: "WR_BY",
@@ -49,6 +50,7 @@ _ENUMERATIONS = {
     WearLaw: "WR_WEAR",
 }
 _TYPES = {np.dtype(np.float64): "double", np.dtype(np.int64): "int64_t"}
+_TYPES |= {getattr(records, name.upper()): of for name, of in _RECORDS.items()}
 
 
 def _enumeration(kind: type[IntEnum], prefix: str) -> str:
@@ -113,6 +115,8 @@ def _constants() -> str:
         **{f"WR_STRIP_{Strip(row).name}": int(row) for row in (Strip.Y, Strip.DY, Strip.PATCH, Strip.A, Strip.P0)},
         **{f"WR_FIELD_{row.name}": int(row) for row in Field},
         "WR_DEFAULT_ITERATIONS": ITERATIONS.usual,
+        "WR_SEPARATION_SAMPLES": _limits(SEPARATION_SAMPLES),
+        "WR_PAIR_SAMPLES": _limits(SAMPLES),
         "WR_TAPE_FROM_FLANGE_BACK": TAPE_FROM_FLANGE_BACK,
         "WR_STEEL_SHEAR_MODULUS": repr(STEEL.shear_modulus),
         "WR_STEEL_POISSON_RATIO": repr(STEEL.poisson_ratio),
@@ -136,6 +140,14 @@ _MOTION_CONSTANTS = (
 )
 
 
+def _range_in_words(limits: Whole | Real) -> str:
+    if (limits.least, limits.most) == (0, 1) and isinstance(limits, Whole):
+        return ""
+    above = f"above {limits.least:g}" if isinstance(limits, Real) and limits.above else f"from {limits.least:g} on"
+    found = above if math.isinf(limits.most) else f"{limits.least:.15g} to {limits.most:.15g}"
+    return f"{found}, default {limits.usual:.6g}".replace(", default inf", "")
+
+
 #: Options of the C interface → their members in order: what each is. `MEMBERS` has default and range of most.
 _OPTIONS = {
     "contact_options": {
@@ -143,7 +155,8 @@ _OPTIONS = {
         "tangential": "WR_TANGENTIAL_...",
         "n_strips": "per patch",
         "n_elements": "per strip",
-        "n_samples": "most of a separation, 3 to 100000, default 101; of a pair's patches 5 to 2001, default 81",
+        "n_samples": f"most of a separation, {_range_in_words(SEPARATION_SAMPLES)}; of a pair's patches "
+        + _range_in_words(SAMPLES),
         "max_iterations": "of the strip half space",
         "conformal": "1: the contact angle varies over the patch",
         "shear_modulus": "[Pa]",
@@ -183,27 +196,23 @@ def _options(name: str, members: dict[str, str]) -> str:
     return "typedef struct {\n" + "\n".join(lines) + f"\n}} wr_{name};"
 
 
-def _range_in_words(limits: Whole | Real) -> str:
-    if (limits.least, limits.most) == (0, 1) and isinstance(limits, Whole):
-        return ""
-    above = f"above {limits.least:g}" if isinstance(limits, Real) and limits.above else f"from {limits.least:g} on"
-    found = above if math.isinf(limits.most) else f"{limits.least:.15g} to {limits.most:.15g}"
-    return f"{found}, default {limits.usual:.6g}".replace(", default inf", "")
-
-
 def _ranges() -> str:
     """Return lists of the members that the functions check, each with its range and default."""
     lists = []
     of_case = {name: limits for name, limits in MEMBERS["case"].items() if name not in SURFACE}
     for name, members in {"surface": SURFACE, **MEMBERS, "case": of_case}.items():
         rows = " \\\n".join(
-            f"    M({member}, {_kind(limits)}, {limits.least!r}, {limits.most!r}, {limits.usual!r}, __VA_ARGS__)"
-            for member, limits in members.items()
+            f"    M({member}, {_kind(limits)}, {_limits(limits)}, __VA_ARGS__)" for member, limits in members.items()
         )
         lists.append(f"#define WR_{name.upper()}_RANGES(M, ...) \\\n{rows}")
     return "/* M(member, kind, least, most, default, ...): ranges of the numbers that a caller gives. */\n" + "\n".join(
         lists
     )
+
+
+def _limits(limits: Whole | Real) -> str:
+    """Return the least, the greatest and the usual value, as the lists of members have them."""
+    return f"{limits.least!r}, {limits.most!r}, {limits.usual!r}"
 
 
 def _kind(limits: Whole | Real) -> str:

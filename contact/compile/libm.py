@@ -26,10 +26,7 @@ _INCLUDE = (
     *(_MUSL / name for name in ("src/internal", "src/include", "include", "arch/x86_64", "arch/generic")),
     *(ZIG / "lib" / "libc" / "include" / name for name in ("generic-musl", "x86_64-linux-musl")),
 )
-_FLAGS = {
-    "v2": ["-ffp-contract=off"],
-    "v3": ["-mfma", "-mavx2", "-ffp-contract=fast", "-D__FP_FAST_FMA=1"],
-}
+_FLAGS = {"v2": ["-ffp-contract=off"], "v3": ["-mfma", "-mavx2", "-ffp-contract=fast", "-D__FP_FAST_FMA=1"]}
 
 
 def compile_libm(compiler: list[str], folder: Path, run: Callable[..., None]) -> list[Path]:

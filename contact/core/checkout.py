@@ -18,7 +18,7 @@ import tempfile
 import time
 import tomllib
 import warnings
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator, Mapping
 from functools import cache
 from importlib.metadata import PackageNotFoundError, version
 from importlib.util import resolve_name
@@ -169,18 +169,32 @@ def sources(part: str = "") -> list[Path]:
     pending = [name for name, path in known.items() if has(part, name) and _has_kernels(path)]
     pending += [] if part == "halfspace" else ["contact.compile.c_tables"]
     pending += [] if part in PARTS else ["contact.kernels.entries"]
-    found: set[str] = set()
-    while pending:
-        name = pending.pop()
-        if name in known and name not in found:
-            found.add(name)
-            pending += _imported(name, known[name])
+    found = _reached(pending, known)
     builder = [path for name in ("core", "compile") for path in (_HERE / name).glob("*.py")]
     in_c = [path for name in ("c", "include") for path in (_HERE / name).iterdir()]
     if part in PARTS:
         in_c = [path for path in in_c if path.suffix == ".h" or path.name == "library.c"]
     tables = () if part == "halfspace" else (_HERE / "data").glob("*creep*.csv")
     return sorted({*(known[name] for name in found), *builder, *in_c, *tables})
+
+
+def sources_of_added() -> list[Path]:
+    """Return the sources of what other packages add to the library: their modules, and those of others that these import."""
+    names = registered()["added"]
+    packages = tuple(name.partition(".")[0] for name in names)
+    known = _modules((*registered()["kernels"], *packages))
+    return sorted(known[name] for name in _reached(list(names), known, packages))
+
+
+def _reached(pending: list[str], known: Mapping[str, Path], of: tuple[str, ...] = ("",)) -> set[str]:
+    """Return the known modules among the pending ones, and what those with a name that begins so import."""
+    found: set[str] = set()
+    while pending:
+        name = pending.pop()
+        if name in known and name not in found:
+            found.add(name)
+            pending += _imported(name, known[name]) if name.startswith(of) else ()
+    return found
 
 
 def _imported(name: str, path: Path) -> Iterator[str]:
@@ -231,11 +245,19 @@ def modules() -> list[tuple[Path, str]]:
 def _known() -> dict[str, Path]:
     """Return the modules, by their names, that kernels may use, and those that make the tables and the library."""
     return {
+        name: path
+        for name, path in _modules(registered()["kernels"]).items()
+        if {"compile", "core", "theory", "kernels"} & {*name.split(".")} or _has_kernels(path)
+    }
+
+
+def _modules(packages: Iterable[str]) -> dict[str, Path]:
+    """Return the modules of packages of this checkout, by their names."""
+    return {
         ".".join(path.relative_to(root).with_suffix("").parts).removesuffix(".__init__"): path
         for root in roots()
-        for name in registered()["kernels"]
-        for path in sorted((root / name).rglob("*.py"))
-        if {"compile", "core", "theory", "kernels"} & {*path.relative_to(root).parts} or _has_kernels(path)
+        for package in packages
+        for path in sorted((root / package).rglob("*.py"))
     }
 
 

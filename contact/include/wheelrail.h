@@ -159,21 +159,8 @@ typedef struct {
     const double *numbers;
 } wr_surface;
 
-typedef struct {
-    int64_t size;   /* sizeof(wr_pair_input), set by wr_pair_input_default */
-    int64_t height; /* WR_HEIGHT_GIVEN: motion.z; _PENETRATION: amount [m]; _LOAD: the normal forces carry amount [N];
-                       _VERTICAL: normal and friction forces together carry amount [N] */
-    double amount;
-    wr_motion motion;      /* pose and velocity of the wheelset, irregularity of the rail; vx < 0 rolls backwards, on
-                              profiles only: fields and strips of its patches are then those of its mirror image in x */
-    wr_case surface;       /* methods, material, friction: as wr_contact_case fills it; loads and creepages are ignored */
-    wr_elastic_rail rail;  /* springs; 0: rigid */
-    wr_wheel_offset offset; /* displacement of the wheel against its wheelset */
-    double distance;       /* rolled in this state [m], for the bins */
-    double station;        /* surfaces: position of the axle along the slices of the rail [m] */
-    double rotation;       /* surfaces: angle by which the wheel has turned [rad]; it decreases when rolling forward */
-} wr_pair_input;
-
+/* A wr_pair_input (wheelrail_records.h) with vx < 0 rolls backwards: fields and strips of its patches are then those of its mirror
+ * image in x. */
 typedef struct {
     int64_t size;                     /* sizeof(wr_pair_answer), set by the caller */
     wr_total total;                   /* forces and moments in track coordinates, Y, Q, damage ... */

@@ -39,6 +39,8 @@
 #define WR_FIELD_SY 6
 #define WR_FIELD_STICK 7
 #define WR_DEFAULT_ITERATIONS 60
+#define WR_SEPARATION_SAMPLES 3, 100000, 101
+#define WR_PAIR_SAMPLES 5, 2001, 81
 #define WR_TAPE_FROM_FLANGE_BACK 0.07
 #define WR_STEEL_SHEAR_MODULUS 82000000000.0
 #define WR_STEEL_POISSON_RATIO 0.28
@@ -391,6 +393,22 @@ _Static_assert(sizeof(wr_damage_parameters) == 264, "wr_damage_parameters");
 #endif
 
 typedef struct {
+    int64_t size; /* sizeof(wr_pair_input), set by wr_pair_input_default */
+    int64_t height; /* Height: motion.z is given, or amount is a penetration [m], or the force that the wheel carries [N] */
+    double amount; /* of the normal forces, or with WR_HEIGHT_VERTICAL of these and friction together */
+    wr_motion motion; /* pose and velocity of the wheelset, irregularity of the rail; vx < 0 rolls backwards, on profiles only */
+    wr_case surface; /* methods, material, friction: as wr_contact_case fills it; loads and creepages are ignored */
+    wr_elastic_rail rail; /* springs; 0: rigid */
+    wr_wheel_offset offset; /* displacement of the wheel against its wheelset */
+    double distance; /* rolled in this state [m], for the bins */
+    double station; /* surfaces: position of the axle along the slices of the rail [m] */
+    double rotation; /* surfaces: angle by which the wheel has turned [rad]; it decreases when rolling forward */
+} wr_pair_input;
+#if defined(__STDC_VERSION__) && __STDC_VERSION__ >= 201112L
+_Static_assert(sizeof(wr_pair_input) == 600, "wr_pair_input");
+#endif
+
+typedef struct {
     int64_t size; /* sizeof(wr_contact_options), set by wr_contact_default */
     int64_t normal; /* WR_NORMAL_... */
     int64_t tangential; /* WR_TANGENTIAL_... */
@@ -484,7 +502,7 @@ typedef struct {
     M(conformal, WHOLE, 0, 1, 0, __VA_ARGS__)
 #define WR_CASE_RANGES(M, ...) \
     M(load_kind, WHOLE, 0, 1, 0, __VA_ARGS__) \
-    M(amount, REAL, -INFINITY, INFINITY, 0.0, __VA_ARGS__) \
+    M(amount, REAL, -1000000000000000.0, 1000000000000000.0, 0.0, __VA_ARGS__) \
     M(vx, REAL, -1000000.0, 1000000.0, 0.0, __VA_ARGS__) \
     M(vy, REAL, -1000000.0, 1000000.0, 0.0, __VA_ARGS__) \
     M(phi, REAL, -1000000.0, 1000000.0, 0.0, __VA_ARGS__) \
@@ -513,7 +531,7 @@ typedef struct {
     M(reference_speed, REAL, 1e-06, 10.0, 0.001, __VA_ARGS__)
 #define WR_PAIR_INPUT_RANGES(M, ...) \
     M(height, WHOLE, 0, 3, 2, __VA_ARGS__) \
-    M(amount, REAL, 0.0, INFINITY, 0.0, __VA_ARGS__) \
+    M(amount, REAL, 0.0, 1000000000000000.0, 0.0, __VA_ARGS__) \
     M(distance, REAL, 0.0, INFINITY, 0.0, __VA_ARGS__) \
     M(station, REAL, -10000000.0, 10000000.0, 0.0, __VA_ARGS__) \
     M(rotation, REAL, -100000000.0, 100000000.0, 0.0, __VA_ARGS__)

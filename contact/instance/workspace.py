@@ -56,8 +56,8 @@ class _UnboundedBlock:
         return self
 
 
-def _laid(lay: Callable[..., tuple[Any, ...]], *arguments: Any) -> Any:
-    """Return the arrays that `lay`, a function of `contact.kernels.memory`, places in a new block of the needed size."""
+def laid(lay: Callable[..., tuple[Any, ...]], *arguments: Any) -> Any:
+    """Return the arrays that `lay`, as those of `contact.kernels.memory`, places in a new block of the needed size."""
     size = lay(_UnboundedBlock(), 0, *arguments)[-1]
     *arrays, _ = lay(zeros(size), 0, *arguments)
     return arrays[0] if len(arrays) == 1 else tuple(arrays)
@@ -71,7 +71,7 @@ def _read_only(*arrays: Array) -> None:
 @functools.lru_cache(maxsize=64)
 def rule(n_strips: int, n_elements: int, interacting: bool) -> Rule:
     """Return the cached rule of one resolution. Only methods with `interacting` strips get its table of columns."""
-    made = _laid(memory.lay_rule, Size(n_strips, n_elements, 0, int(interacting), 0))
+    made = laid(memory.lay_rule, Size(n_strips, n_elements, 0, int(interacting), 0))
     quadrature.fill_fejer(*made.across)
     quadrature.fill_elements(made.elements)
     quadrature.fill_panel(made.cosines, made.cosine_logs)
@@ -90,11 +90,7 @@ def rule(n_strips: int, n_elements: int, interacting: bool) -> Rule:
 def tables(poisson_ratio: float, tabulated: bool) -> Tables:
     """Return the cached tables. Only methods that need them get the half space's forces."""
     no_forces = np.zeros((1, 1, 1, 1, 1))
-    return Tables(
-        kalker.table(poisson_ratio),
-        *strips.tables(),
-        force_table.load() if tabulated else no_forces,
-    )
+    return Tables(kalker.table(poisson_ratio), *strips.tables(), force_table.load() if tabulated else no_forces)
 
 
 def allocate(
@@ -113,8 +109,8 @@ def allocate(
         Allocate the fields of all strips. If False, the workspace is for forces only.
     """
     full = Size(*size, int(normal.interacting), int(fields))
-    strips, field_array = _laid(memory.lay_strips_and_fields, full)
-    space = _laid(memory.lay_space, full, np.zeros(memory.memory_size(full)))
+    strips, field_array = laid(memory.lay_strips_and_fields, full)
+    space = laid(memory.lay_space, full, np.zeros(memory.memory_size(full)))
     return Workspace(
         rule(full.n_strips, full.n_elements, normal.interacting),
         tables(poisson_ratio, tangential.tabulated),
@@ -127,7 +123,7 @@ def allocate(
 def solver_arrays(normal: Method, tangential: Method, poisson_ratio: float, size: tuple[int, int, int]) -> SolverArrays:
     """Return the arrays of a contact that is solved again and again. The arguments are those of `allocate`."""
     full = Size(*size, int(normal.interacting), 1)
-    return _laid(memory.lay_solver, full, allocate(normal, tangential, poisson_ratio, size))
+    return laid(memory.lay_solver, full, allocate(normal, tangential, poisson_ratio, size))
 
 
 def search(wheel: Array, rail: Array, grid: Array, n_samples: int) -> Search:
@@ -135,7 +131,7 @@ def search(wheel: Array, rail: Array, grid: Array, n_samples: int) -> Search:
 
     Separations are sampled at the positions `grid` [m] or, if it is empty, at positions that the search chooses.
     """
-    made: Search = _laid(memory.lay_search, wheel.shape[1], rail.shape[1], grid.size, n_samples)
+    made: Search = laid(memory.lay_search, wheel.shape[1], rail.shape[1], grid.size, n_samples)
     made.wheel[:], made.rail[:], made.grid[:] = wheel, rail, grid
     quadrature.fill_fejer(*made.across)
     return made
@@ -143,7 +139,7 @@ def search(wheel: Array, rail: Array, grid: Array, n_samples: int) -> Search:
 
 def sheet(u: Array, nodes: Array, runs: Array, period: tuple[float, float], deviation: Array) -> Sheet:
     """Return the arrays of a surface. The arguments are the members of `Sheet`."""
-    made: Sheet = _laid(memory.lay_sheet, u.size, nodes.shape[2], deviation.shape[1])
+    made: Sheet = laid(memory.lay_sheet, u.size, nodes.shape[2], deviation.shape[1])
     for array, given in zip(made, (u, nodes, runs, period, deviation), strict=True):
         array[:] = given
     return made
@@ -151,7 +147,7 @@ def sheet(u: Array, nodes: Array, runs: Array, period: tuple[float, float], devi
 
 def surface_search(wheel: Sheet, rail: Sheet, n_samples: int) -> SurfaceSearch:
     """Return the arrays of a contact search over two surfaces. Separations have `n_samples` samples."""
-    made: SurfaceSearch = _laid(memory.lay_surface_search, wheel, rail, n_samples)
+    made: SurfaceSearch = laid(memory.lay_surface_search, wheel, rail, n_samples)
     quadrature.fill_fejer(*made.across)
     return made
 
@@ -167,7 +163,7 @@ def ledger(wheel: Array, rail: Array, n_strips: int, n_bins: int, first: float, 
     first, width : float
         Arc length of the start of the first bin, and width of a bin [m].
     """
-    made: Ledger = _laid(memory.lay_ledger, wheel, rail, np.zeros((2, len(Bin), n_bins)), n_strips)
+    made: Ledger = laid(memory.lay_ledger, wheel, rail, np.zeros((2, len(Bin), n_bins)), n_strips)
     arc_length(made.wheel, made.wheel_arc)
     arc_length(made.rail, made.rail_arc)
     made.settings["start"], made.settings["width"] = first / width, width
@@ -177,7 +173,7 @@ def ledger(wheel: Array, rail: Array, n_strips: int, n_bins: int, first: float, 
 def closed_ledger() -> Ledger:
     """Return a ledger without bins, which records nothing."""
     nothing = np.zeros((2, 0))
-    return _laid(memory.lay_ledger, nothing, nothing, np.zeros((2, len(Bin), 0)), 0)
+    return laid(memory.lay_ledger, nothing, nothing, np.zeros((2, len(Bin), 0)), 0)
 
 
 def pair_arrays(
@@ -186,7 +182,7 @@ def pair_arrays(
     """Return the arrays of a wheel-rail pair, which include its search, its workspace and its ledger."""
     full = Size(*size, 0, 1)
     kept = np.zeros(memory.pair_memory_size(of_patch.space.memory.size))
-    return _laid(memory.lay_pair, full, kept, of_search, of_patch, of_ledger)
+    return laid(memory.lay_pair, full, kept, of_search, of_patch, of_ledger)
 
 
 def derivative_arrays(size: tuple[int, int, int], of_pair: PairArrays) -> DerivativeArrays:
@@ -195,5 +191,5 @@ def derivative_arrays(size: tuple[int, int, int], of_pair: PairArrays) -> Deriva
     if isinstance(search, SurfaceSearch):
         near = surface_search(search.wheel, search.rail, search.separations.shape[2])
     else:
-        near = _laid(memory.lay_near_search, full, search)
-    return _laid(memory.lay_derivatives, full, near, of_pair)
+        near = laid(memory.lay_near_search, full, search)
+    return laid(memory.lay_derivatives, full, near, of_pair)

@@ -42,7 +42,7 @@ _ITERATED, _NOISE, _IDLE, _RESTLESS = 1e-5, 1e-4, 2, 5e-4
 #: Iterations up to which a solution is a start for the next trial. What takes more may have two solutions at one height.
 _QUICK = 8
 #: Most solutions for a load, each of which lays the patch anew, and the change of the force up to which the height may move
-#: after the last one. A patch that is laid for another height carries a tenth of this too much or too little.
+#: after the last one: laid once more, 400 random patches then carried 5e-5 more or less at most, the noise of their strips.
 _MOST_LAID, _LAID = 5, 3e-4
 #: Target and accepted residual on surfaces that change along the way, the second with friction. On the edge of a fresh flat the
 #: force is not smooth in z.

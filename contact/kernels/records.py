@@ -7,6 +7,8 @@ A record is a numpy structured type, aligned like a C struct: ``case.mu``, ``res
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 
 #: Largest number of separate patches of one separation.
@@ -28,14 +30,15 @@ TAPE_FROM_FLANGE_BACK = 0.070
 
 #: Record → member → meaning. `contact.compile.c_header` makes the C header from it.
 MEANING: dict[str, dict[str, str]] = {}
+_MADE: dict[str, np.dtype] = {}
 
 
 def record(name: str, members: str) -> np.dtype:
     """Return the aligned record `name`. Each line of `members` is ``name meaning``.
 
-    ``name`` is a float64, ``name:int`` an int64, ``name:8`` an array of 8 float64.
+    ``name`` is a float64, ``name:int`` an int64, ``name:8`` an array of 8 float64, ``name:case`` the record `case`.
     """
-    fields: list[tuple[str, type] | tuple[str, type, tuple[int]]] = []
+    fields: list[tuple[str, Any] | tuple[str, type, tuple[int]]] = []
     meaning = MEANING[name] = {}
     for line in filter(None, map(str.strip, members.splitlines())):
         word, _, text = line.partition(" ")
@@ -44,8 +47,9 @@ def record(name: str, members: str) -> np.dtype:
         if kind.isdigit():
             fields.append((member, np.float64, (int(kind),)))
         else:
-            fields.append((member, np.int64 if kind == "int" else np.float64))
-    return np.dtype((np.record, np.dtype(fields, align=True)))
+            fields.append((member, np.int64 if kind == "int" else _MADE[kind] if kind else np.float64))
+    _MADE[name] = np.dtype((np.record, np.dtype(fields, align=True)))
+    return _MADE[name]
 
 
 #: One contact problem besides its separation.
@@ -352,5 +356,22 @@ LEDGER = record(
     start           where the first bin begins, in widths
     width           of a bin [m]
     distance        distance rolled in the next solution [m]
+    """,
+)
+
+#: What a pair is asked at one instant, as the caller of the C interface gives it.
+PAIR_INPUT = record(
+    "pair_input",
+    """
+    size:int        sizeof(wr_pair_input), set by wr_pair_input_default
+    height:int      Height: motion.z is given, or amount is a penetration [m], or the force that the wheel carries [N]
+    amount          of the normal forces, or with WR_HEIGHT_VERTICAL of these and friction together
+    motion:given    pose and velocity of the wheelset, irregularity of the rail; vx < 0 rolls backwards, on profiles only
+    surface:case    methods, material, friction: as wr_contact_case fills it; loads and creepages are ignored
+    rail:elastic_rail  springs; 0: rigid
+    offset:wheel_offset  displacement of the wheel against its wheelset
+    distance        rolled in this state [m], for the bins
+    station         surfaces: position of the axle along the slices of the rail [m]
+    rotation        surfaces: angle by which the wheel has turned [rad]; it decreases when rolling forward
     """,
 )

@@ -28,6 +28,8 @@ Answer = TypeVar("Answer")
 MATERIAL, LOAD, FRICTION, C = Material(82e9, table.NU), 82e3, 0.3, 6e-3
 #: Value of r that replaces infinity, far into full slip.
 _FAR = 1e3
+#: ln(a/b) from which on there are twice as many elements along x: with 60 forces are .0025 of mu N off in the mean, .012 most.
+_SLENDER = math.log(10.0) - 1e-9
 
 
 def build(
@@ -39,7 +41,8 @@ def build(
 ) -> None:
     """Compute the rows of the table that are missing in `path`, and add them to it.
 
-    Each node is one solution of TANG on Hertz's pressure, with `elements` rows and columns on the ellipse.
+    Each node is one solution of TANG on Hertz's pressure, with `elements` rows and columns on the ellipse, and twice as many
+    columns on slender ones.
 
     Raises
     ------
@@ -80,7 +83,8 @@ def _heading(elements: int) -> str:
     return (
         "# Creep forces over mu N, moment over mu N c, share of slip, on ellipses of Hertz at Poisson's ratio "
         f"{table.NU}: contact/kernels/tangential/table.py\n"
-        f"# Computed by `contact table build` (TANG of contact.halfspace, {elements} x {elements} elements on the ellipse)\n"
+        f"# Computed by `contact table build` (TANG of contact.halfspace, {elements} x {elements} elements on the ellipse, "
+        "from a/b = 10 on twice as many along x)\n"
         f"# A row for each a/b, spin and direction, in the order of table.rows(); {names}, ...\n"
     )
 
@@ -102,8 +106,8 @@ def sizes(log_aspect: float, rho: float) -> tuple[float, float, float]:
     return unit / c11, unit / c22, unit / (table.spin_weight(log_aspect, c11, c22, c23) * c23 * C)
 
 
-def _solved(separation: Separation, slip: Creepage, elements: int) -> Solution:
-    """Return the solution of a node with `elements` rows and columns.
+def _solved(separation: Separation, slip: Creepage, elements: int, columns: int) -> Solution:
+    """Return the solution of a node with `elements` rows, and `columns` times as many columns.
 
     Pure spin on the most slender ellipses may not converge. Then the next smaller multiple of four that does is taken.
     """
@@ -117,7 +121,7 @@ def _solved(separation: Separation, slip: Creepage, elements: int) -> Solution:
             normal="hertz",
             tangential="halfspace",
             n_strips=n,
-            n_elements=n,
+            n_elements=columns * n,
             throw=False,
         )
         if found.status <= Status.SATURATED:
@@ -137,7 +141,7 @@ def _row(job: tuple[int, int, int, int]) -> str:
     numbers = []
     for share in rho[1:]:
         slip = creepage(float(log_aspect[i]), float(alpha[j]), mirrored * float(beta[k]), float(share))
-        s = _solved(separation, slip, elements)
+        s = _solved(separation, slip, elements, 2 if log_aspect[i] >= _SLENDER else 1)
         scale = FRICTION * LOAD
         numbers += [s.Fx / scale, mirrored * s.Fy / scale, mirrored * s.Mz / (scale * C), s.slip_ratio]
     return ",".join(short(number) for number in numbers)

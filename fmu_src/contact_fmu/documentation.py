@@ -23,14 +23,14 @@ def markdown(table: Table) -> str:
         *(_line(row) for row in table.shown),
     ]
     if table.fields:
-        lines += [
-            "",
-            _about_fields(table),
-            "",
-            *lines[4:6],
-            *(_line(row) for row in table.fields),
-        ]
+        lines += ["", _about_fields(table), "", *lines[4:6], *(_line(row) for row in table.fields)]
     return "\n".join(lines) + "\n"
+
+
+def files(table: Table, packaging: str = "") -> list[tuple[str, bytes]]:
+    """Return the documentation in an FMU, with a section on its packaging."""
+    text = markdown(table) + packaging
+    return [(f"documentation/{table.name}.md", text.encode()), ("documentation/index.html", page(table).encode())]
 
 
 def page(table: Table) -> str:

@@ -18,9 +18,7 @@ _CONTACT = {"load.normal_force": "load"}
 _PAIR = {"load.normal_force": "wheel load"}
 _ROWS = {
     "load.approach": "approach",
-    "creepage.longitudinal": "creepage.longitudinal",
-    "creepage.lateral": "creepage.lateral",
-    "creepage.spin": "creepage.spin",
+    **{f"creepage.{name}": f"creepage.{name}" for name in ("longitudinal", "lateral", "spin")},
     "friction.coefficient": "friction",
     "speed": "speed",
     "velocity.x": "speed",
@@ -28,10 +26,8 @@ _ROWS = {
     "geometry.A0": "A",
     "material.shear_modulus": "shear_modulus",
     "material.pressure_limit": "pressure_limit",
-    "pose.y": "pose.y",
-    "pose.roll": "pose.roll",
-    "pose.yaw": "pose.yaw",
-    **{name: name for name in ("velocity.y", "velocity.z", "velocity.roll", "velocity.yaw")},
+    **{f"pose.{name}": f"pose.{name}" for name in ("y", "roll", "yaw")},
+    **{f"velocity.{name}": f"velocity.{name}" for name in ("y", "z", "roll", "yaw")},
 }
 #: Row of an answer → rule.
 _ANSWERS = {"force.n": "N", "wheel.Q": "N", "bend": "bend", "beyond": "beyond"}

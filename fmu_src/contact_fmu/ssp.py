@@ -18,14 +18,14 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
-from xml.etree.ElementTree import Element, SubElement, indent, tostring
+from xml.etree.ElementTree import Element, SubElement
 
 from contact_models.runs.scenario import Scenario
 from contact_models.vehicle.coupling import QUESTION
 from contact_models.vehicle.declared import SIDES
 from contact_models.wheelset import system as wheelset
 from . import archive, starts
-from .description import number
+from .description import number, text_of
 from .tables import open_vehicle, vehicle, wheel_rail_pair
 from .tables.solver import NORMAL_METHOD, TANGENTIAL_METHOD
 from .tables.wheel_rail_pair import LOAD_KIND, SIDE
@@ -157,8 +157,7 @@ def structure(made: System, *, connected: bool = False) -> str:
     )
     algorithm = SubElement(annotation, "osp:Algorithm")
     SubElement(algorithm, "osp:FixedStepAlgorithm", baseStepSize=number(made.step))
-    indent(root)
-    return '<?xml version="1.0" encoding="UTF-8"?>\n' + tostring(root, encoding="unicode") + "\n"
+    return text_of(root)
 
 
 def _master_of_omsimulator(system: Element, step: float) -> None:

@@ -9,8 +9,9 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
-from xml.etree.ElementTree import Element, SubElement, indent, tostring
+from xml.etree.ElementTree import Element, SubElement
 
+from .description import text_of
 from .tables.wheel_rail_contact import PROBLEM, REACTION
 from .variables import Causality, Table
 
@@ -66,5 +67,4 @@ def terminals(table: Table) -> str | None:
         for member, variable in terminal.members.items():
             members = {"variableName": variable, "memberName": member, "variableKind": "signal"}
             SubElement(element, "TerminalMemberVariable", members)
-    indent(root)
-    return '<?xml version="1.0" encoding="UTF-8"?>\n' + tostring(root, encoding="unicode") + "\n"
+    return text_of(root)

@@ -9,6 +9,7 @@ import contact
 from contact.geometry import profile, wheelset
 from contact.kernels.normal.ends import end_moves, go_far
 from contact.kernels.normal.partition import have_gap
+from contact.kernels.normal.residuals import level_light
 from contact.kernels.rows import N_VECTOR_ROWS, Vector
 from contact.pair import WheelRailPair
 
@@ -74,6 +75,18 @@ def test_many_strips_settle_on_a_lobe_whose_middles_could_zigzag_at_its_ends(y, 
     assert found[1].status is contact.Status.OK
     assert found[1].max_pressure == pytest.approx(found[0].max_pressure, rel=5e-3)
     assert found[1].area == pytest.approx(found[0].area, rel=1e-2)
+
+
+def test_strips_that_bear_next_to_nothing_do_not_tell_the_pressure_of_what_is_not_at_rest():
+    """A spike in a lobe .02 mm wide made 12 878 MPa of 5164, with an alarm."""
+    vectors = np.zeros((N_VECTOR_ROWS, 10))
+    vectors[Vector.P, :6] = 3e9, 4e9, 3.5e9, 1e9, 2e10, 9e9
+    vectors[Vector.A], vectors[Vector.HALF] = 5e-3, 1e-4
+    vectors[Vector.HALF, 4:6] = 1e-7
+    kept = vectors[Vector.P].copy()
+    assert level_light.__wrapped__(10, vectors)
+    assert vectors[Vector.P].tolist() == np.minimum(kept, 4e9).tolist()
+    assert not level_light.__wrapped__(10, vectors)
 
 
 def test_a_spike_at_an_end_is_lowered_to_the_pressure_beside_it():

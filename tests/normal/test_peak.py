@@ -6,6 +6,7 @@ import pytest
 import contact
 from contact.geometry import library
 from contact.geometry.wheelset import Pair, Pose
+from reference.random_cases import asymmetric, two_lobed, worn
 
 NO_CREEP = contact.Creepage()
 
@@ -21,10 +22,11 @@ def kinked(at, beyond):
     [(-1e-3, 150.0, 0.09), (0.0, 40.0, 0.05), (0.0, 150.0, 0.12), (2e-3, 10.0, 0.035), (3e-3, 40.0, 0.065)],
 )
 def test_a_peak_between_strips_is_found(at, beyond, before):
-    """With 20 strips the largest pressure was lower than with 96 by more than `before`, because no strip lay at the peak."""
+    """With 20 strips the largest pressure was lower than with 96 by more than `before`: no strip lay at the peak. Strips that
+    are divided once were up to .011 off."""
     few, many = (contact.solve(kinked(at, beyond), NO_CREEP, load=8e4, n_strips=n) for n in (20, 96))
     assert max(few.strips.p0) < (1.0 - before) * many.max_pressure
-    assert few.max_pressure == pytest.approx(many.max_pressure, rel=0.014)
+    assert few.max_pressure == pytest.approx(many.max_pressure, rel=0.0025)
 
 
 def test_the_largest_pressure_of_random_patches_hardly_changes_with_more_strips():
@@ -55,6 +57,19 @@ def test_a_sharp_peak_is_not_read_too_high():
         errors.append(few.max_pressure / many.max_pressure - 1.0)
     assert abs(np.mean(errors)) < 0.0008
     assert np.max(np.abs(errors)) < 0.005
+
+
+def test_peaks_of_worn_profiles_and_of_several_lobes_hardly_change_with_more_strips():
+    """Strips divided once were .0025 off in the mean of these gaps, .011 (95 %), .032 at most: peaks narrower than a part."""
+    rng, errors = np.random.default_rng(5), []
+    while len(errors) < 60:
+        separation = (worn, two_lobed, asymmetric)[len(errors) % 3](rng)
+        load = 10 ** rng.uniform(4.0, 5.2)
+        few, many = (contact.solve(separation, NO_CREEP, load=load, n_strips=n, throw=False) for n in (20, 96))
+        if few.status is many.status is contact.Status.OK:
+            errors.append(abs(few.max_pressure / many.max_pressure - 1.0))
+    assert np.mean(errors) < 0.0012
+    assert np.percentile(errors, 95) < 0.005
 
 
 @pytest.mark.parametrize("seed", [29, 30, 34])

@@ -158,7 +158,8 @@ def test_the_files_obey_the_symmetries(path):
 
 
 @pytest.mark.parametrize(
-    ("creepage", "before"), [((0.0, 4e-3, 0.0), 0.0117), ((0.0, 0.0, -3.0), 0.0084), ((0.0, 1.5e-3, 0.4), 0.0071)]
+    ("creepage", "before"),
+    [((0.0, 4e-3, 0.0), 0.0117), ((0.0, 0.0, -3.0), 0.0084), ((0.0, 1.5e-3, 0.4), 0.0071), ((0.0, 1e-3, -0.6), 0.0135)],
 )
 def test_a_lopsided_patch_has_the_half_spaces_longitudinal_force(creepage, before):
     """Its strips do not displace each other evenly. `before` is the error over mu N without what that adds to the creepage."""
@@ -184,3 +185,16 @@ def test_a_skewed_lopsided_patch_has_the_half_spaces_lateral_force_under_spin(sp
         march = contact.solve(separation, creepage, **given)
         exact = contact.solve(separation, creepage, **half_space, **given)
         assert abs(march.Fy - exact.Fy) < 0.8 * before * MU * 6e4
+
+
+@pytest.mark.parametrize(("spin", "on_the_line"), [(1.0, 0.0277), (2.0, 0.0178)])
+def test_a_slender_turned_ellipse_has_the_half_spaces_lateral_force_under_spin(spin, on_the_line):
+    """The slip of spin counts between the middles of strips and the line of least gap. `on_the_line` is the error there."""
+    y = np.linspace(-4e-3, 4e-3, 321)
+    given = {"load": 6e4, "friction": MU}
+    half_space = {"normal": "strip_halfspace", "tangential": "halfspace", "n_strips": 64, "n_elements": 128}
+    for turn in (-3.0, 3.0):
+        separation = contact.Separation(y, 100.0 * y**2, 1.1, turn * y)
+        march = contact.solve(separation, contact.Creepage(0.0, 0.0, spin), **given)
+        exact = contact.solve(separation, contact.Creepage(0.0, 0.0, spin), **half_space, **given)
+        assert abs(march.Fy - exact.Fy) < 0.5 * on_the_line * MU * 6e4

@@ -10,6 +10,7 @@ import reference
 from contact.instance import workspace
 from contact.kernels.tangential import table as kernel
 from contact.study import creep_table
+from contact.study.ellipse import ellipse
 from contact.theory import force_table as table
 from contact.theory import kalker
 from reference import unseen
@@ -88,6 +89,17 @@ def test_large_creepage_gives_full_slip():
     found = lookup(0.1, 3e3 * c11, 4e3 * c22, 0.0)
     np.testing.assert_allclose(found, (-0.6, -0.8, 0.0, 1.0), atol=0.01)
     assert math.hypot(*found[:2]) <= 1.0 + 1e-12
+
+
+def test_slender_ellipses_have_the_force_of_120_elements_along_x():
+    """With 60, which are longer than they are wide there, the table was .0036 off."""
+    log_aspect, alpha, beta, rho = table.nodes()
+    slip = creep_table.creepage(float(log_aspect[9]), float(alpha[2]), float(beta[15]), float(rho[10]))
+    separation = ellipse(math.exp(log_aspect[9]), C, creep_table.LOAD, creep_table.MATERIAL)
+    given = {"load": creep_table.LOAD, "friction": 0.3, "material": creep_table.MATERIAL, "normal": "hertz"}
+    found = contact.solve(separation, slip, tangential="table", n_strips=100, **given)
+    exact = contact.solve(separation, slip, tangential="halfspace", n_strips=60, n_elements=120, **given)
+    assert math.hypot(found.Fx - exact.Fx, found.Fy - exact.Fy) < 0.0015 * 0.3 * creep_table.LOAD
 
 
 @pytest.mark.slow

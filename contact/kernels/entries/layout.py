@@ -36,10 +36,7 @@ def lay_out(work, end, kept, size, constants):
     space, at_strips = memory.lay_space(work, end, size, kept)
     strips, fields, end = memory.lay_strips_and_fields(work, at_strips, size)
     tables = Tables(
-        coefficients,
-        carray(centre, influence.CENTRE),
-        carray(plane, influence.PLANE),
-        carray(creep, CREEP),
+        coefficients, carray(centre, influence.CENTRE), carray(plane, influence.PLANE), carray(creep, CREEP)
     )
     return Workspace(rule, tables, space, strips, fields), at_strips, end
 

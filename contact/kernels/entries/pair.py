@@ -14,23 +14,13 @@ from typing import Any, NamedTuple
 from contact.core import COMPILING, arranging, group
 from contact.kernels import block, memory, quadrature
 from contact.kernels.damage.deposit import arc_length
+from contact.kernels.entries import Entries
 from contact.kernels.entries.layout import copy, copy_rows, fill, forget_forged, lay_out, size_of
 from contact.kernels.flexible import solve_flexible
 from contact.kernels.geometry.prepare import facing, rail_origin, take_nodes
 from contact.kernels.pair import solve_patch
 from contact.kernels.pair_conditions import derive_pair
-from contact.kernels.records import (
-    CASE,
-    CONTACT,
-    DAMAGE_PARAMETERS,
-    ELASTIC_RAIL,
-    GIVEN,
-    MAX_PATCHES,
-    MOTION,
-    RESULT,
-    TOTAL,
-    WHEEL_OFFSET,
-)
+from contact.kernels.records import CASE, CONTACT, DAMAGE_PARAMETERS, MAX_PATCHES, MOTION, PAIR_INPUT, RESULT, TOTAL
 from contact.kernels.rows import N_PROFILE_ROWS, Bin, Moved
 
 if COMPILING:
@@ -142,83 +132,101 @@ def set_options(motion, y, z, case, parameters, arrays):
 
 
 @arranging
-def solve_from(a, arrays, piece, cold, mode, amount, distance, motion, case, rail, offset, total, contacts, deflected):
-    """Solve at one instant from the kept start, or with `cold` from nothing. Return the number of patches or `NoAnswer`."""
+def _solve_from(a, arrays, piece, asked, answer):
+    """Solve at one instant from the kept start into a wr_pair_answer. Return the number of patches or `NoAnswer`."""
     copy(a.kept, a.trial)
     _copy_bins(a.kept_bins, a.bins)
-    if cold != 0:
-        a.trial[:] = 0.0
     for k in range(MAX_PATCHES):
         forget_forged(a.trial[1 + k * piece : 1 + (k + 1) * piece])
-    cases, _ = block.records(case, 0, 1, CASE)
-    springs, _ = block.records(rail, 0, 1, ELASTIC_RAIL)
-    offsets, _ = block.records(offset, 0, 1, WHEEL_OFFSET)
-    givens, _ = block.records(motion, 0, 1, GIVEN)
-    arrays.case[0], arrays.rail[0], arrays.offset[0], arrays.given[0] = cases[0], springs[0], offsets[0], givens[0]
-    arrays.ledger.settings[0].distance = distance
-    code = solve_flexible(mode, amount, arrays)
+    arrays.case[0], arrays.rail[0], arrays.offset[0], arrays.given[0] = (
+        asked.surface,
+        asked.rail,
+        asked.offset,
+        asked.motion,
+    )
+    code = solve_flexible(asked.height, asked.amount, arrays)
     if code < 0:
         return code
-    totals, _ = block.records(total, 0, 1, TOTAL)
-    patches, _ = block.records(contacts, 0, MAX_PATCHES, CONTACT)
-    out, _ = block.records(deflected, 0, 1, ELASTIC_RAIL)
-    totals[0], out[0] = arrays.total[0], arrays.rail[0]
+    totals, end = block.records(answer, 1, 1, TOTAL)  # after its size
+    patches, end = block.records(answer, end, MAX_PATCHES, CONTACT)
+    deflection, _ = block.vector(answer, end, 2)
+    totals[0], deflection[0], deflection[1] = arrays.total[0], arrays.rail[0].dy, arrays.rail[0].dz
     for k in range(MAX_PATCHES):
         patches[k] = arrays.contacts[k]
     return code if math.isfinite(a.bins.sum()) else -100
 
 
-@arranging
-def accept(a):
-    """Make what the last solution has left the start of the following ones, and keep its bins."""
-    copy(a.trial, a.kept)
-    _copy_bins(a.bins, a.kept_bins)
+def entries_of(kind: str, lay: Any, lay_beside: Any, place: Any) -> Entries:
+    """Return what profiles and surfaces have alike, by names that begin with `kind`.
 
-
-@arranging
-def solve_again(a, arrays, piece, k, result):
-    """Solve patch k of the last solution once more, for its strips and fields. Return the number of strips.
-
-    It starts from what the last solution has left, which it restores.
+    Parameters
+    ----------
+    lay : function (sizes, work, constants) -> (Start, arrays, …, end)
+    lay_beside : function (work, end, size, arrays) -> (arrays for the derivatives, end)
+    place : function (arrays, record PAIR_INPUT)
+        Says where the wheel is.
     """
-    of_patch = a.trial[1 + k * piece : 1 + (k + 1) * piece]
-    copy(of_patch, a.spare)
-    n = solve_patch(k, arrays)
-    copy(a.spare, of_patch)
-    results, _ = block.records(result, 0, 1, RESULT)
-    results[0] = arrays.result[0]
-    return n
 
+    def solve(sizes, work, question, answer, given):
+        """Fill a wr_pair_answer for a wr_pair_input. Return the number of patches or `NoAnswer`, -100 for endless damage."""
+        a, arrays = lay(sizes, work, given.data)[:2]
+        asked, _ = block.records(question, 0, 1, PAIR_INPUT)
+        place(arrays, asked[0])
+        return _solve_from(a, arrays, memory.memory_size(size_of(sizes)), asked[0], answer)
 
-@arranging
-def fill_derivatives(mode, arrays, derivatives, jacobian):
-    """Fill `jacobian`, shape (6, 17), for the last solution of `arrays`. Return the number of patches or `NoAnswer`."""
-    code = derive_pair(mode, arrays, derivatives)
-    out, _ = block.matrix(jacobian, 0, 6, Moved.FRICTION.value)
-    for i in range(6):
-        for j in range(out.shape[1]):
-            out[i, j] = derivatives.jacobian[i, j]
-    return code
+    def derivatives(sizes, work, mode, jacobian, given):
+        """Fill `jacobian`, shape (6, 17), for the last solution. Return the number of patches or `NoAnswer`."""
+        laid = lay(sizes, work, given.data)
+        beside, _ = lay_beside(work, laid[-1], size_of(sizes), laid[1])
+        code = derive_pair(mode, laid[1], beside)
+        out, _ = block.matrix(jacobian, 0, 6, Moved.FRICTION.value)
+        for i in range(6):
+            for j in range(out.shape[1]):
+                out[i, j] = beside.jacobian[i, j]
+        return code
 
+    def accept(sizes, work, given):
+        """Make what the last solution has left the start of the following ones, and keep its bins."""
+        a = lay(sizes, work, given.data)[0]
+        copy(a.trial, a.kept)
+        _copy_bins(a.bins, a.kept_bins)
+        return 0
 
-@arranging
-def _lay_all(sizes, work, constants):
-    """Return the pair's arrays, the arrays for its derivatives and the size in numbers."""
-    size = size_of(sizes)
-    _, arrays, _, _, end = _lay(sizes, work, constants)
-    derivatives, end = lay_derivatives(work, end, size, arrays)
-    return arrays, derivatives, end
+    def forget(sizes, work, given):
+        """Let the following solutions start from nothing. The bins stay."""
+        a = lay(sizes, work, given.data)[0]
+        a.kept[:] = 0.0
+        a.trial[:] = 0.0
+        return 0
+
+    def patch(sizes, work, k, result, given):
+        """Solve patch k of the last solution once more, for its strips and fields. Return the number of strips.
+
+        It starts from what the last solution has left, which it restores.
+        """
+        a, arrays = lay(sizes, work, given.data)[:2]
+        piece = memory.memory_size(size_of(sizes))
+        of_patch = a.trial[1 + k * piece : 1 + (k + 1) * piece]
+        copy(of_patch, a.spare)
+        n = solve_patch(k, arrays)
+        copy(a.spare, of_patch)
+        results, _ = block.records(result, 0, 1, RESULT)
+        results[0] = arrays.result[0]
+        return n
+
+    return {
+        f"{kind}_solve": (solve, "i64", ("ptr",) * 4),
+        f"{kind}_derivatives": (derivatives, "i64", ("ptr", "ptr", "i64", "ptr")),
+        f"{kind}_accept": (accept, "i64", ("ptr", "ptr")),
+        f"{kind}_forget": (forget, "i64", ("ptr", "ptr")),
+        f"{kind}_patch": (patch, "i64", ("ptr", "ptr", "i64", "ptr")),
+    }
 
 
 def pair_size(sizes, given):
     """Return the size of `work` in float64."""
-    return _lay_all(sizes, sizes, given.data)[2]
-
-
-def pair_derivatives(sizes, work, mode, jacobian, given):
-    """As `fill_derivatives`, on profiles."""
-    arrays, derivatives, _ = _lay_all(sizes, work, given.data)
-    return fill_derivatives(mode, arrays, derivatives, jacobian)
+    laid = _lay(sizes, sizes, given.data)
+    return lay_derivatives(sizes, laid[4], size_of(sizes), laid[1])[1]
 
 
 def pair_strips(sizes, given):
@@ -261,46 +269,16 @@ def pair_init(sizes, work, wheel, rail, motion, case, parameters, gauge, gauge_p
     return 0
 
 
-def pair_solve(
-    sizes, work, cold, mode, amount, distance, motion, case, rail, offset, total, contacts, deflected, given
-):
-    """As `solve_from`, on profiles."""
-    a, arrays, _, _, _ = _lay(sizes, work, given.data)
-    piece = memory.memory_size(size_of(sizes))
-    return solve_from(
-        a, arrays, piece, cold, mode, amount, distance, motion, case, rail, offset, total, contacts, deflected
-    )  # fmt: skip
+@arranging
+def _place(arrays, asked):
+    arrays.ledger.settings[0].distance = asked.distance
 
 
-def pair_accept(sizes, work, given):
-    """As `accept`, on profiles."""
-    accept(_lay(sizes, work, given.data)[0])
-    return 0
-
-
-def pair_forget(sizes, work, given):
-    """Let the following solutions start from nothing. The bins stay."""
-    a, _, _, _, _ = _lay(sizes, work, given.data)
-    a.kept[:] = 0.0
-    a.trial[:] = 0.0
-    return 0
-
-
-def pair_patch(sizes, work, k, result, given):
-    """As `solve_again`, on profiles."""
-    a, arrays, _, _, _ = _lay(sizes, work, given.data)
-    return solve_again(a, arrays, memory.memory_size(size_of(sizes)), k, result)
-
-
-ENTRIES: dict[str, tuple[Any, str, tuple[str, ...]]] = {
+ENTRIES: Entries = {
     "pair_size": (pair_size, "i64", ("ptr",)),
     "pair_strips": (pair_strips, "i64", ("ptr",)),
     "pair_bins": (pair_bins, "i64", ("ptr",)),
     "pair_facing": (pair_facing, "i64", ("ptr",) * 4),
     "pair_init": (pair_init, "i64", (*("ptr",) * 7, *("f64",) * 4)),
-    "pair_solve": (pair_solve, "i64", ("ptr", "ptr", "i64", "i64", "f64", "f64", *("ptr",) * 7)),
-    "pair_derivatives": (pair_derivatives, "i64", ("ptr", "ptr", "i64", "ptr")),
-    "pair_accept": (pair_accept, "i64", ("ptr", "ptr")),
-    "pair_forget": (pair_forget, "i64", ("ptr", "ptr")),
-    "pair_patch": (pair_patch, "i64", ("ptr", "ptr", "i64", "ptr")),
+    **entries_of("pair", _lay, lay_derivatives, _place),
 }

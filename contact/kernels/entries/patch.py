@@ -13,6 +13,7 @@ from contact.core import arranging, group
 from contact.kernels import block, memory
 from contact.kernels.arrays import Samples, SolverArrays
 from contact.kernels.damage.assess import damage_kernel
+from contact.kernels.entries import Entries
 from contact.kernels.entries.layout import copy, fill, forget_forged, lay_out, size_of
 from contact.kernels.given_force import solve_under_force
 from contact.kernels.jacobian import COLUMNS, ROWS, solve_with_jacobian
@@ -139,7 +140,7 @@ def contact_damage(sizes, work, n, case, result, parameters, damage, given):
     return 0
 
 
-ENTRIES: dict[str, tuple[Any, str, tuple[str, ...]]] = {
+ENTRIES: Entries = {
     "contact_size": (contact_size, "i64", ("ptr",)),
     "contact_strips": (contact_strips, "i64", ("ptr",)),
     "contact_init": (contact_init, "i64", ("ptr", "f64", "ptr")),

@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 from contact.core import arranging
 from contact.kernels import block
 from contact.kernels.arrays import LoadGrid, PatchFields, PatchStrips
+from contact.kernels.entries import Entries
 from contact.kernels.entries.layout import size_of
 from contact.kernels.records import MAX_PATCHES, RESULT
 from contact.kernels.rows import Field, Strip
@@ -84,11 +83,7 @@ def stress_at(sizes, nx, ny, x, y, p, qx, qy, sign, poisson_ratio, n, px, py, pz
     return 0
 
 
-ENTRIES: dict[str, tuple[Any, str, tuple[str, ...]]] = {
+ENTRIES: Entries = {
     "load_fill": (load_fill, "i64", ("ptr", "ptr", "i64", "f64", "ptr", "i64", "i64", *("ptr",) * 5)),
-    "stress_at": (
-        stress_at,
-        "i64",
-        ("ptr", "i64", "i64", *("ptr",) * 5, "f64", "f64", "i64", *("ptr",) * 5),
-    ),
+    "stress_at": (stress_at, "i64", ("ptr", "i64", "i64", *("ptr",) * 5, "f64", "f64", "i64", *("ptr",) * 5)),
 }

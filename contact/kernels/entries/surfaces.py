@@ -8,23 +8,14 @@ the other. `sizes` are those of `patch`, then how many numbers the wheel and the
 from __future__ import annotations
 
 import math
-from typing import Any
 
 from contact.core import COMPILING, arranging
 from contact.kernels import block, memory, quadrature
 from contact.kernels.arrays import Sheet
 from contact.kernels.block import ahead
+from contact.kernels.entries import Entries
 from contact.kernels.entries.layout import copy, fill, lay_out, size_of
-from contact.kernels.entries.pair import (
-    accept,
-    fill_derivatives,
-    lay_start,
-    reset,
-    set_options,
-    solve_again,
-    solve_from,
-)
-from contact.kernels.records import WHEEL_OFFSET
+from contact.kernels.entries.pair import entries_of, lay_start, reset, set_options
 from contact.kernels.rows import N_PROFILE_ROWS, Bin
 
 if COMPILING:
@@ -156,12 +147,10 @@ def _laid(sizes, work, constants):
 
 
 @arranging
-def _lay_all(sizes, wheel, rail, work, constants):
-    """Return the pair's arrays, the arrays for its derivatives and the size in numbers. `wheel` and `rail`: the surfaces."""
-    size = size_of(sizes)
-    _, arrays, _, end = _lay(sizes, wheel, rail, work, constants)
-    derivatives, end = lay_derivatives(work, end, size, arrays)
-    return arrays, derivatives, end
+def _place(arrays, asked):
+    of_search = arrays.search.motion[0]
+    of_search.station, of_search.rotation = asked.station, asked.rotation + asked.offset.pitch
+    arrays.ledger.settings[0].distance = 0.0
 
 
 def surfaces_check(sizes, numbers, n, given):
@@ -171,14 +160,8 @@ def surfaces_check(sizes, numbers, n, given):
 
 def surfaces_size(sizes, wheel, rail, given):
     """Return the size of `work` in float64."""
-    return _lay_all(sizes, wheel, rail, sizes, given.data)[2]
-
-
-def surfaces_derivatives(sizes, work, mode, jacobian, given):
-    """As `pair.fill_derivatives`."""
-    n_wheel = int(carray(sizes, (9,))[4])
-    arrays, derivatives, _ = _lay_all(sizes, work, ahead(work, n_wheel), work, given.data)
-    return fill_derivatives(mode, arrays, derivatives, jacobian)
+    _, arrays, _, end = _lay(sizes, wheel, rail, sizes, given.data)
+    return lay_derivatives(sizes, end, size_of(sizes), arrays)[1]
 
 
 def surfaces_init(sizes, work, wheel, rail, motion, case, parameters, given):
@@ -187,53 +170,20 @@ def surfaces_init(sizes, work, wheel, rail, motion, case, parameters, given):
     n_wheel, n_rail = int(s[4]), int(s[5])
     copy(carray(wheel, (n_wheel,)), carray(work, (n_wheel,)))
     copy(carray(rail, (n_rail,)), carray(ahead(work, n_wheel), (n_rail,)))
-    a, arrays, at_strips, _ = _laid(sizes, work, given.data)
+    a, arrays, at_strips, end = _laid(sizes, work, given.data)
     reset(a)
     y, z = place_of(rail)
     set_options(motion, y, z, case, parameters, arrays)
     prepare_search(wheel, n_wheel, arrays.search)
     fill(arrays.workspace, arrays.case[0].nu, given.data)
-    _, derivatives, _ = _lay_all(sizes, ahead(work, 0), ahead(work, n_wheel), work, given.data)
+    derivatives, _ = lay_derivatives(work, end, size_of(sizes), arrays)
     prepare_search(wheel, n_wheel, derivatives.neighbour.search)
     return at_strips
 
 
-def surfaces_solve(
-    sizes, work, cold, mode, amount, station, rotation, motion, case, rail, offset, total, contacts, deflected, given
-):
-    """As `pair.solve_from`, for the place of the axle along the rail [m] and the angle of the wheel [rad]."""
-    a, arrays, _, _ = _laid(sizes, work, given.data)
-    of_search = arrays.search.motion[0]
-    of_search.station, of_search.rotation = station, rotation + block.records(offset, 0, 1, WHEEL_OFFSET)[0][0].pitch
-    piece = memory.memory_size(size_of(sizes))
-    return solve_from(a, arrays, piece, cold, mode, amount, 0.0, motion, case, rail, offset, total, contacts, deflected)
-
-
-def surfaces_accept(sizes, work, given):
-    """As `pair.accept`."""
-    accept(_laid(sizes, work, given.data)[0])
-    return 0
-
-
-def surfaces_forget(sizes, work, given):
-    """Let the following solutions start from nothing."""
-    reset(_laid(sizes, work, given.data)[0])
-    return 0
-
-
-def surfaces_patch(sizes, work, k, result, given):
-    """As `pair.solve_again`."""
-    a, arrays, _, _ = _laid(sizes, work, given.data)
-    return solve_again(a, arrays, memory.memory_size(size_of(sizes)), k, result)
-
-
-ENTRIES: dict[str, tuple[Any, str, tuple[str, ...]]] = {
+ENTRIES: Entries = {
     "surfaces_check": (surfaces_check, "i64", ("ptr", "ptr", "i64")),
     "surfaces_size": (surfaces_size, "i64", ("ptr",) * 3),
     "surfaces_init": (surfaces_init, "i64", ("ptr",) * 7),
-    "surfaces_solve": (surfaces_solve, "i64", ("ptr", "ptr", "i64", "i64", *("f64",) * 3, *("ptr",) * 7)),
-    "surfaces_derivatives": (surfaces_derivatives, "i64", ("ptr", "ptr", "i64", "ptr")),
-    "surfaces_accept": (surfaces_accept, "i64", ("ptr", "ptr")),
-    "surfaces_forget": (surfaces_forget, "i64", ("ptr", "ptr")),
-    "surfaces_patch": (surfaces_patch, "i64", ("ptr", "ptr", "i64", "ptr")),
+    **entries_of("surfaces", _laid, lay_derivatives, _place),
 }

@@ -17,16 +17,25 @@ from contact.kernels.rows import Sample, Strip, Vector
 #: Bend of the pressure over three strips, over that of an ellipse, from which on a peak counts as sharp, and from which on
 #: only its parts count.
 _SHARP, _SHARPEST = 1.25, 1.75
+#: The same of the parts, from which on they are divided once more.
+_SHARP_AGAIN, _SHARPEST_AGAIN = 1.75, 2.5
 #: Share of the largest strip pressure from which on a peak counts.
 _HIGH = 0.8
 #: Difference of two neighbours' pressures, over the larger one, below which the parts of both count.
 _ALIKE = 0.15
-#: Parts of a strip.
-_PARTS = 3
+#: Parts of a strip, and of three strips.
+_PARTS, _NINE = 3, 9
 #: Strips at either side of a divided one whose pressures are taken at every part. Those beyond act smoothly.
 _NEAR = 4
 #: Least strips of a panel: the parts need room in the rows of `vectors`.
 FEWEST = 8
+
+
+@kernel
+def rise(value, low, high):
+    """Return a smooth step from 0 at `low` to 1 at `high`."""
+    t = min(max((value - low) / (high - low), 0.0), 1.0)
+    return t * t * (3.0 - 2.0 * t)
 
 
 @kernel
@@ -170,71 +179,129 @@ def _fill_rest(sep, i, n, nearest, beyond, problem, logs, rest):
 
 
 @kernel
-def _top_of_parts(i, n, problem):
+def _lay_parts(i, begin, parent, before, after, strips, vectors):
+    """Lay nine parts in the rows R (middle), DIFFERENCE (half width) and OFFSET_R (ln a) from `begin` on.
+
+    They are thirds of strip i and its neighbours if `begin` is 0, else of the parts `parent` and its neighbours. Strips from
+    `before` to `after` have two neighbours in the patch.
+    """
+    at, halves, logs_a, squares = (
+        vectors[Vector.R], vectors[Vector.DIFFERENCE], vectors[Vector.OFFSET_R], vectors[Vector.SPREAD],
+    )  # fmt: skip
+    for r in range(_NINE):
+        k = r // _PARTS - 1
+        s = i + k if begin == 0 else i - 1 + (parent + k) // _PARTS
+        middle = strips[Strip.Y, s] if begin == 0 else at[parent + k]
+        half = (0.5 * strips[Strip.DY, s] if begin == 0 else halves[parent + k]) / _PARTS
+        at[begin + r], halves[begin + r] = middle + (2 * (r % _PARTS) + 1 - _PARTS) * half, half
+        logs_a[begin + r] = math.log(_half_length(min(max(s, before), after), at[begin + r], squares, strips))
+
+
+@kernel
+def _displacement_by_parts(at, parent, unit, vectors, centre):
+    """Return the displacement at y = `at` by the nine first parts but `parent` and its neighbours, where the point lies [m]."""
+    parts, halves, logs_a, pressures = (
+        vectors[Vector.R], vectors[Vector.DIFFERENCE], vectors[Vector.OFFSET_R], vectors[Vector.Q1],
+    )  # fmt: skip
+    total = 0.0
+    for c in range(_NINE):
+        if abs(c - parent) > 1:
+            away = abs(parts[c] - at)
+            near, far = math.log(away - halves[c]) - logs_a[c], math.log(away + halves[c]) - logs_a[c]
+            total += pressures[c] * math.exp(logs_a[c]) * (at_centre(centre, far) - at_centre(centre, near))
+    return unit * total
+
+
+@kernel
+def _close_parts(i, begin, parent, nearest, beyond, problem):
+    """Find the pressures of the nine parts from `begin` on, in the row Q1. All else keeps its pressures."""
+    workspace, sep, unit = problem.workspace, problem.sep, problem.unit
+    strips, vectors, lu, centre = workspace.strips, workspace.space.vectors, workspace.space.lu, workspace.tables.centre
+    slopes, rest, logs_a = workspace.space.grid[Sample.GAP_SLOPE], vectors[Vector.U], vectors[Vector.REACH]
+    at, halves, logs = vectors[Vector.R, begin:], vectors[Vector.DIFFERENCE, begin:], vectors[Vector.R_OLD]
+    logs_of_parts, pressures, unused = vectors[Vector.OFFSET_R, begin:], vectors[Vector.Q1, begin:], vectors[Vector.Q2]
+    side = at[0] - halves[0]
+    for r in range(_NINE):
+        pressures[r] = _parabola(i, at[r], rest, strips) - _mean_gap(sep, slopes, at[r] - halves[r], at[r] + halves[r])
+        pressures[r] -= _displacement(at[r], nearest, i - 1, unit, strips, logs_a, centre)
+        pressures[r] -= _displacement(at[r], i + 2, beyond, unit, strips, logs_a, centre)
+        if begin > 0:
+            pressures[r] -= _displacement_by_parts(at[r], parent, unit, vectors, centre)
+        unused[r], logs[r] = 0.0, math.log(abs(at[r] - side))
+    for c in range(_NINE):  # parts lie side by side: the upper side of one is the lower side of the next
+        side, ln_a = at[c] + halves[c], logs_of_parts[c]
+        scale = unit * math.exp(ln_a)
+        for r in range(_NINE):
+            low = at_centre(centre, logs[r] - ln_a)
+            logs[r] = math.log(abs(at[r] - side))
+            high = at_centre(centre, logs[r] - ln_a)
+            lu[c, r] = scale * (low + high if r == c else abs(high - low))
+    eliminate(lu, _NINE, pressures, unused)
+
+
+@kernel
+def _highest_part(begin, vectors):
+    """Return which of the nine parts from `begin` on, without the two at either side, has the largest pressure."""
+    pressures = vectors[Vector.Q1]
+    best = begin + _PARTS - 1
+    for r in range(begin + _PARTS, begin + 2 * _PARTS + 1):
+        best = r if pressures[r] > pressures[best] else best
+    return best
+
+
+@kernel
+def _top(best, vectors):
+    """Return the largest pressure around part `best`: the top of the parabola through it and its neighbours."""
+    here, left, right = vectors[Vector.Q1, best], vectors[Vector.Q1, best - 1], vectors[Vector.Q1, best + 1]
+    bend = 2.0 * here - left - right
+    return here + 0.125 * (right - left) ** 2 / bend if bend > 0.5 * abs(right - left) else here
+
+
+@kernel
+def _top_of_parts(i, n, of_ellipse, problem):
     """Return the largest pressure of the parts of strip i and its neighbours, which lie in the same patch [Pa].
 
     What closes the gap at these strips beside the pressure of the nearest ones, approach and all distant strips, is
     smooth: a parabola. The outer parts make up for the pressure of the strips beside them, which has a step there. They do
-    not count.
+    not count. Where the pressures of the parts are as sharp again, the highest three are divided once more.
     """
-    workspace, sep, unit = problem.workspace, problem.sep, problem.unit
-    strips, vectors, lu, centre = workspace.strips, workspace.space.vectors, workspace.space.lu, workspace.tables.centre
-    slopes, rest = workspace.space.grid[Sample.GAP_SLOPE], vectors[Vector.U]
-    at, pressures, unused, logs = vectors[Vector.R], vectors[Vector.Q1], vectors[Vector.Q2], vectors[Vector.R_OLD]
-    logs_a, squares = vectors[Vector.REACH], vectors[Vector.SPREAD]
+    strips, vectors = problem.workspace.strips, problem.workspace.space.vectors
+    squares, pressures = vectors[Vector.SPREAD], vectors[Vector.Q1]
     nearest, beyond = max(i - _NEAR, 0), min(i + _NEAR + 1, n)
-    _fill_logs(nearest, beyond, strips, logs_a)
-    _fill_rest(sep, i, n, nearest, beyond, problem, logs_a, rest)
-    m = 3 * _PARTS
-    for r in range(m):
-        s = i - 1 + r // _PARTS
-        half = 0.5 * strips[Strip.DY, s] / _PARTS
-        at[r] = strips[Strip.Y, s] + (2 * (r % _PARTS) + 1 - _PARTS) * half
-        pressures[r] = _parabola(i, at[r], rest, strips) - _mean_gap(sep, slopes, at[r] - half, at[r] + half)
-        pressures[r] -= _displacement(at[r], nearest, i - 1, unit, strips, logs_a, centre)
-        pressures[r] -= _displacement(at[r], i + 2, beyond, unit, strips, logs_a, centre)
-        unused[r] = 0.0
+    _fill_logs(nearest, beyond, strips, vectors[Vector.REACH])
+    _fill_rest(problem.sep, i, n, nearest, beyond, problem, vectors[Vector.REACH], vectors[Vector.U])
     before = i - 1 if _is_beside(i, i - 2, n, strips) else i  # strips with two neighbours in the patch
     after = i + 1 if _is_beside(i, i + 2, n, strips) else i
     for s in range(before - 1, after + 2):
         squares[s] = strips[Strip.A, s] ** 2
-    side = strips[Strip.Y, i - 1] - 0.5 * strips[Strip.DY, i - 1]
-    for r in range(m):
-        logs[r] = math.log(abs(at[r] - side))
-    for c in range(m):  # parts lie side by side: the upper side of one is the lower side of the next
-        s = i - 1 + c // _PARTS
-        side = at[c] + 0.5 * strips[Strip.DY, s] / _PARTS
-        a = _half_length(min(max(s, before), after), at[c], squares, strips)
-        ln_a = math.log(a)
-        for r in range(m):
-            low = at_centre(centre, logs[r] - ln_a)
-            logs[r] = math.log(abs(at[r] - side))
-            high = at_centre(centre, logs[r] - ln_a)
-            lu[c, r] = unit * a * (low + high if r == c else abs(high - low))
-    eliminate(lu, m, pressures, unused)
-    best = _PARTS - 1
-    for r in range(_PARTS, 2 * _PARTS + 1):
-        best = r if pressures[r] > pressures[best] else best
-    here, left, right = pressures[best], pressures[best - 1], pressures[best + 1]
-    bend = 2.0 * here - left - right
-    return here + 0.125 * (right - left) ** 2 / bend if bend > 0.5 * abs(right - left) else here  # top of the parabola
+    _lay_parts(i, 0, 0, before, after, strips, vectors)
+    _close_parts(i, 0, 0, nearest, beyond, problem)
+    best = _highest_part(0, vectors)
+    top = _top(best, vectors)
+    bend = pressures[best - 1] - pressures[best - 2] + pressures[best + 1] - pressures[best + 2]
+    share = rise(_PARTS * _PARTS * bend / (of_ellipse * pressures[best]), _SHARP_AGAIN, _SHARPEST_AGAIN)
+    if share == 0.0:
+        return top
+    _lay_parts(i, _NINE, best, before, after, strips, vectors)
+    _close_parts(i, _NINE, best, nearest, beyond, problem)
+    return top + share * (_top(_highest_part(_NINE, vectors), vectors) - top)
 
 
 @kernel
-def _found(i, n, problem):
+def _found(i, n, of_ellipse, problem):
     """Return the largest pressure around strip i, a peak. If a neighbour has nearly its pressure, both are divided.
 
     Otherwise the answer would jump where the peak moves from one strip to the next.
     """
     strips = problem.workspace.strips
     p = strips[Strip.P0]
-    top = _top_of_parts(i, n, problem)
+    top = _top_of_parts(i, n, of_ellipse, problem)
     k = i + 1 if p[i + 1] > p[i - 1] else i - 1
     apart = min((p[i] - p[k]) / (_ALIKE * p[i]), 1.0)
     if apart == 1.0 or not (_is_beside(k, k - 1, n, strips) and _is_beside(k, k + 1, n, strips)):
         return top
-    share = 0.5 + 0.5 * apart * apart * (3.0 - 2.0 * apart)
-    return share * top + (1.0 - share) * _top_of_parts(k, n, problem)
+    share = 0.5 + 0.5 * rise(apart, 0.0, 1.0)
+    return share * top + (1.0 - share) * _top_of_parts(k, n, of_ellipse, problem)
 
 
 @kernel
@@ -251,8 +318,7 @@ def _sharpness(i, n, of_ellipse, strips):
         return 0.0
     p = strips[Strip.P0]
     bend = (p[i - 1] - _beyond(i, -1, n, strips) + p[i + 1] - _beyond(i, 1, n, strips)) / p[i]
-    share = min(max((bend / of_ellipse - _SHARP) / (_SHARPEST - _SHARP), 0.0), 1.0)
-    return share * share * (3.0 - 2.0 * share)
+    return rise(bend / of_ellipse, _SHARP, _SHARPEST)
 
 
 @kernel
@@ -272,5 +338,5 @@ def peak_between_strips(n, problem):
     for i in range(n):
         if p[i] > _HIGH * largest and _is_peak(i, n, strips):
             smooth, share = math.sqrt(_square_at(i, n, strips)), _sharpness(i, n, of_ellipse, strips)
-            top = max(top, smooth + share * (_found(i, n, problem) - smooth) if share > 0.0 else smooth)
+            top = max(top, smooth + share * (_found(i, n, of_ellipse, problem) - smooth) if share > 0.0 else smooth)
     return top

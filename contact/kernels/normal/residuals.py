@@ -19,7 +19,9 @@ AT_PEAK = 0.02
 LONE = 2.0
 #: A pressure is a spike of an end that was fixed inside the contact if at most this share of the strips lies beyond, and if the
 #: pressures inwards fall to this share of it and rise again to so much over that.
-_AT_END, _FALLEN, _RISEN = 0.12, 0.5, 1.5
+AT_END, _FALLEN, _RISEN = 0.12, 0.5, 1.5
+#: Share of the load below which strips are too light to tell the largest pressure where the unknowns are not at rest.
+_LIGHT = 0.01
 
 
 @kernel
@@ -107,54 +109,48 @@ def stands_alone(total, vectors):
 
 
 @kernel
-def foot_of_spike(n, n_panels, vectors, most):
-    """Return the strip with the lowest pressure beside a spike, and the step from there to the end of its panel, 0 without one.
+def is_spike_at_end(n, n_panels, vectors, most):
+    """Return whether the largest pressure is a spike of an end that was fixed inside the contact.
 
-    A spike is the largest pressure, at most `most` loaded strips away from an end of a panel. It falls far inwards, and rises
-    again.
+    It lies at most `most` loaded strips away from an end of a panel. Inwards, pressures fall far and rise again.
     """
     top = 0
     for i in range(n * n_panels):
         top = i if vectors[Vector.P, i] > vectors[Vector.P, top] else top
     first, highest = top - top % n, vectors[Vector.P, top]
     for step in (1, -1):
-        i, beyond, lowest = top - step, 0, top
+        i, beyond, lowest = top - step, 0, highest
         while first <= i < first + n:
             beyond += 1 if vectors[Vector.P, i] > 0.0 else 0
             i -= step
         i = top if beyond <= most else first - 1
         while first <= i < first + n:
-            pressure = vectors[Vector.P, i]
-            lowest = i if pressure < vectors[Vector.P, lowest] else lowest
-            if vectors[Vector.P, lowest] < _FALLEN * highest and pressure > _RISEN * vectors[Vector.P, lowest]:
-                return lowest, -step
+            lowest = min(lowest, vectors[Vector.P, i])
+            if lowest < _FALLEN * highest and vectors[Vector.P, i] > _RISEN * lowest:
+                return True
             i += step
-    return 0, 0
+    return False
 
 
 @kernel
-def is_spike_at_end(n, n_panels, vectors):
-    """Return whether the largest pressure may be a spike of an end that was fixed inside the contact."""
-    _, outwards = foot_of_spike(n, n_panels, vectors, _AT_END * n)
-    return outwards != 0
-
-
-@kernel
-def level_spikes(n, n_panels, vectors):
-    """Lower spikes of the last loaded strip of a panel to the pressure beside them. Return whether there was one.
-
-    A narrow lobe falls towards its end. The end of a spike was fixed inside the contact, where the last pressures are singular.
-    They carry little.
-    """
-    for k in range(2 * n_panels):
-        foot, outwards = foot_of_spike(n, n_panels, vectors, 0.0)
-        if outwards == 0:
+def level_light(total, vectors):
+    """Lower the largest pressures, of strips that bear at most a share `_LIGHT` of the load. Return whether there are any."""
+    load, borne, limit = 0.0, 0.0, math.inf
+    for i in range(total):
+        load += vectors[Vector.P, i] * vectors[Vector.A, i] * vectors[Vector.HALF, i]
+    for k in range(total):
+        top = 0.0
+        for i in range(total):
+            top = max(top, vectors[Vector.P, i] if vectors[Vector.P, i] < limit else 0.0)
+        limit = top
+        for i in range(total):
+            if vectors[Vector.P, i] == limit:
+                borne += limit * vectors[Vector.A, i] * vectors[Vector.HALF, i]
+        if borne > _LIGHT * load or limit == 0.0:
+            for i in range(total):
+                vectors[Vector.P, i] = min(vectors[Vector.P, i], limit)
             return k > 0
-        first, i = foot - foot % n, foot
-        while first <= i < first + n:
-            vectors[Vector.P, i] = min(vectors[Vector.P, i], vectors[Vector.P, foot])
-            i += outwards
-    return True
+    return False
 
 
 @kernel

@@ -37,7 +37,7 @@ from contact.kernels.normal.iteration import (
 )
 from contact.kernels.normal.orientation import is_image, turn_back, turn_samples
 from contact.kernels.normal.panels import is_between_loaded
-from contact.kernels.normal.residuals import AT_PEAK, is_spike_at_end, level_spikes, stands_alone
+from contact.kernels.normal.residuals import AT_END, AT_PEAK, is_spike_at_end, level_light, stands_alone
 from contact.kernels.normal.sections import largest_pressure
 from contact.kernels.normal.start import face, forget, recall, remember
 from contact.kernels.normal.turned import turn_aspects
@@ -57,7 +57,7 @@ SLIGHT = 0.045
 #: the half length at which it may be 1 higher.
 OVER_LINE, NARROW = 1.1, 0.024
 #: Distance of a patch from the end of the data, over its width, below which the data cut it off.
-AT_END = 0.01
+_CUT_OFF = 0.01
 
 
 @kernel
@@ -259,12 +259,12 @@ def _solve(sep, case, load, brief, workspace, result):
     usable, rests = _iterate(problem, state, case.max_iterations)
     # panels of many strips more often have ends that are fixed before they arrive
     fine = skew > 0.0 and n > COARSE
-    spike = rests and fine and is_spike_at_end(n, state.n_panels, space.vectors)
+    spike = rests and fine and is_spike_at_end(n, state.n_panels, space.vectors, AT_END * n)
     if (spike or not rests) and state.load > 0.0 and state.error < math.inf and case.max_iterations >= MAX_ITERATIONS:
         begin_again(problem, state)
         usable, rests = _iterate(problem, state, case.max_iterations)
-    if fine and level_spikes(n, state.n_panels, space.vectors):
-        rests = False
+    rests = rests and not (fine and is_spike_at_end(n, state.n_panels, space.vectors, 0.0))
+    levelled = not rests and level_light(n * state.n_panels, space.vectors)
 
     result.iterations = state.number + 1
     if not usable:
@@ -280,12 +280,12 @@ def _solve(sep, case, load, brief, workspace, result):
     lone = skew > 0.0 and _level_lone(n, n_panels, space.vectors)
     count = _report(problem, case.load_kind != LoadKind.APPROACH, state.approach, n_panels)
     # parts of strips would make up for the pressure that was taken away
-    result.pmax = 0.0 if lone or brief else largest_pressure(count, problem)
+    result.pmax = 0.0 if lone or levelled or brief else largest_pressure(count, problem)
     if not rests and result.status != Status.OUT_OF_RANGE:
         result.status = Status.NOT_CONVERGED
     elif result.status == Status.OUT_OF_RANGE:
         low, high = panels[0], panels[2 * n_panels - 1]
-        margin = AT_END * (high - low)  # ends come close to the end of the data, but do not reach it
+        margin = _CUT_OFF * (high - low)  # ends come close to the end of the data, but do not reach it
         if low > sep.y[0] + margin and high < sep.y[sep.y.size - 1] - margin:
             result.status = Status.OK
     return count

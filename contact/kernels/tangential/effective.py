@@ -25,26 +25,30 @@ from contact.kernels.tangential.skew import coupled
 from contact.kernels.tangential.table import Part, interpolated, is_beyond, signs, units
 from contact.kernels.tangential.ties import is_read, share_shape
 
-#: What a lopsided shape has (mapped_strip.md Eq. lopsided): longitudinal creepage by lateral creepage and by spin, lateral by
-#: longitudinal, and lateral by spin if it is skewed, fitted to patches of standard profiles; most that counts of it.
-_LATERAL, _SPIN, _LONGITUDINAL, _AHEAD = 0.25, (0.48, 1.6, -3.0), 0.32, 0.9
+#: What a lopsided shape adds (mapped_strip.md Eq. lopsided): longitudinal creepage by spin, and by lateral creepage with and
+#: without spin; lateral creepage by longitudinal creepage without and with both, and by spin if the shape is skewed.
+_SPIN, _LATERAL, _LONGITUDINAL, _AHEAD = 0.4, (0.4, -1.3), (0.3, -1.0), 0.7
+#: What a shape with a tail adds: a part of the creepages, and lateral creepage by spin.
+_OF_TAIL, _SPIN_OF_TAIL = -0.1, 0.33
+#: Most that counts of how lopsided a shape is.
 _MOST = 0.2
 
 
 @kernel
-def _on_lopsided(lopsided, ahead, X, Y, Z):
-    """Return what a lopsided shape adds to X and Y (mapped_strip.md Eq. lopsided).
+def _on_shape(lopsided, ahead, tail, X, Y, Z):
+    """Return what a shape that is no ellipse adds to X and Y (mapped_strip.md Eq. lopsided).
 
     `lopsided` is the way from the centre of its load to that of its stiffness along y, over c, `ahead` the same along x. Strips
-    do not displace each other evenly then. On an ellipse both are 0.
+    do not displace each other evenly then. `tail` is the logarithm of its longest strip over that of the ellipse with its mean
+    length. On an ellipse all three are 0.
     """
     square = X * X + Y * Y + Z * Z
     fading = 1.0 / (1.0 + square)
-    sliding = square * fading * math.sqrt(fading)
-    between = square * fading * fading
-    by_spin = _SPIN[0] * fading + _SPIN[1] * sliding + _SPIN[2] * between
-    to_x = lopsided * (_LATERAL * sliding * Y + by_spin * Z)
-    return to_x, lopsided * _LONGITUDINAL * between * X + ahead * _AHEAD * fading * Z
+    cube = fading * math.sqrt(fading)
+    to_x = _SPIN * fading * Z + Y * (_LATERAL[0] * cube * Y * Y + _LATERAL[1] * fading * fading * Z * Z)
+    to_y = X * (_LONGITUDINAL[0] * square * fading * fading + _LONGITUDINAL[1] * cube * Y * Z)
+    by_tail = tail * (_OF_TAIL * fading * Y + _SPIN_OF_TAIL * square * cube * Z)
+    return lopsided * to_x + tail * _OF_TAIL * fading * X, lopsided * to_y + by_tail + ahead * _AHEAD * fading * Z
 
 
 @kernel
@@ -59,10 +63,11 @@ def _changes(strips, first, last, case, centre, of_patch, tables):
     """
     G = case.G
     a, b = mean_ellipse(strips, first, last)
-    weights, x, vx, vy, phi, limit = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
+    longest, weights, x, vx, vy, phi, limit = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
     load, load_y, load_x, stiffness, stiffness_y, stiffness_x = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
     for i in range(first, last):
         weight, y = strips[Strip.SHARE, i] * strips[Strip.A, i] * strips[Strip.DY, i], strips[Strip.Y, i]
+        longest = max(longest, strips[Strip.SHARE, i] * strips[Strip.A, i])
         weights += weight
         pressed = weight * strips[Strip.P0, i]
         load, load_y, load_x = load + pressed, load_y + pressed * y, load_x + pressed * strips[Strip.XC, i]
@@ -92,10 +97,10 @@ def _changes(strips, first, last, case, centre, of_patch, tables):
     by_turn_x, by_turn_y = coupled(of_patch[3], case.nu, r, coefficients, c, (vx, vy, phi))
     lopsided = min(max((stiffness_y / stiffness - load_y / load) / c, -_MOST), _MOST)
     ahead = min(max((stiffness_x / stiffness - load_x / load) / c, -_MOST), _MOST)
-    by_side_x, by_side_y = _on_lopsided(lopsided, ahead, X, Y, unit_z * phi)
+    by_shape_x, by_shape_y = _on_shape(lopsided, ahead, math.log(longest / a), X, Y, unit_z * phi)
     return (
-        (sign_x * r * to_x + by_side_x) / unit_x + to_spin * centre + by_turn_x,
-        (sign_y * r * to_y + by_side_y) / unit_y - to_spin * x + by_turn_y,
+        (sign_x * r * to_x + by_shape_x) / unit_x + to_spin * centre + by_turn_x,
+        (sign_y * r * to_y + by_shape_y) / unit_y - to_spin * x + by_turn_y,
         to_spin,
         exponent,
         1.0 if is_beyond(log_aspect) else 0.0,

@@ -12,6 +12,8 @@ from contact.kernels.tangential.mapping import edge_direction, end_of_stick
 from contact.kernels.tangential.march import March
 
 _LOG_ASPECT_FIT = 1.7  # ln(a/b) up to which the constants were fitted; they stay constant beyond
+#: Where the slip of spin counts: of the way from the middle of a strip to the line of least gap (mapped_strip.md 7).
+_TO_LINE = 0.7
 
 
 class Lane(Row):
@@ -70,8 +72,8 @@ class _Input(Row):
 def set_block(strips, block, last, case, table, of_patch, lanes):
     """Fill `lanes` for the strips from `block` on: steps 1 and 2 of mapped_strip.md 3.
 
-    `of_patch` is that of `set_aspects`. All rows are zero for a strip that carries no load. The rigid slip of spin is that on
-    the line of least gap: on a skewed patch, strips hold each other back (mapped_strip.md 7).
+    `of_patch` is that of `set_aspects`. All rows are zero for a strip that carries no load. The rigid slip of spin is that
+    near the line of least gap: on a skewed patch, strips hold each other back (mapped_strip.md 7).
     """
     G = case.G
     offset, rho33, turn, _ = of_patch
@@ -81,7 +83,7 @@ def set_block(strips, block, last, case, table, of_patch, lanes):
         a, bound, log_aspect = strips[Strip.A, i], case.mu * strips[Strip.BOUND, i], strips[Strip.ASPECT, i]
         lanes[Lane.BOUND + l] = bound if a > 0.0 and bound > least else 0.0
         lanes[_Input.HALF + l], lanes[_Input.AT + l] = a, strips[Strip.Y, i]
-        lanes[_Input.XC + l] = strips[Strip.XC, i] - strips[Strip.OFFSET, i]
+        lanes[_Input.XC + l] = strips[Strip.XC, i] - _TO_LINE * strips[Strip.OFFSET, i]
         to_x, to_y = (
             strips[Strip.TO_X, i] + strips[Strip.BY_PULL_X, i],
             strips[Strip.TO_Y, i] + strips[Strip.BY_PULL_Y, i],

@@ -78,9 +78,4 @@ def experiment_is_one(root: Element) -> Iterator[str]:
         yield f"from {start:g} to {stop:g} by {step:g}"
 
 
-RULES = (
-    structure_is_complete,
-    dependencies_are_known,
-    capabilities_are_consistent,
-    experiment_is_one,
-)
+RULES = (structure_is_complete, dependencies_are_known, capabilities_are_consistent, experiment_is_one)

@@ -70,10 +70,7 @@ _OF_PROFILES: dict[int, str] = {
     Failure.GAUGE_POINT: "track.gauge_point: the rail reaches no deeper on its gauge side",
     Failure.STEEP: "rail.inclination: the rail is steep at its top",
 }
-_PROFILES = (
-    Resource(wheel_rail_pair.WHEEL, MAGIC["wheel"], ROWS),
-    Resource(wheel_rail_pair.RAIL, MAGIC["rail"], ROWS),
-)
+_PROFILES = (Resource(wheel_rail_pair.WHEEL, MAGIC["wheel"], ROWS), Resource(wheel_rail_pair.RAIL, MAGIC["rail"], ROWS))
 _TRACK = Resource(vehicle.TRACK, track.MAGIC, track.ROWS)
 
 

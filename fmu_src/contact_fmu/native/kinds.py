@@ -25,7 +25,6 @@ The functions that return neither a size, a step nor a position return 0 or the 
 from __future__ import annotations
 
 from collections.abc import Callable
-from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 from .component import Given
@@ -44,16 +43,8 @@ SIGNATURES: dict[str, tuple[str, tuple[str, ...]]] = {
     "difference": ("f64", ("ptr", "i64")),
     "field": ("i64", ("ptr", "ptr", "i64")),
 }
-#: Kind of model → module of its kernels.
-KINDS = {
-    "contact": f"{__package__}.wheel_rail_contact",
-    "pair": f"{__package__}.wheel_rail_pair",
-    "surfaces": f"{__package__}.wheel_rail_surfaces",
-    "vehicle": f"{__package__}.vehicle",
-    "open_vehicle": f"{__package__}.open_vehicle",
-}
-
-
+#: Kinds of models.
+KINDS = ("contact", "pair", "surfaces", "vehicle", "open_vehicle")
 #: Those that FMUs for hosts with Python have too.
 OF_PYTHON = ("contact", "pair", "open_vehicle")
 
@@ -65,8 +56,11 @@ def names(kind: str) -> list[str]:
 
 def added() -> list[Added]:
     """Return what native FMUs add to the libraries of all systems (`contact.compile.library`)."""
+    from . import open_vehicle, vehicle, wheel_rail_contact, wheel_rail_pair, wheel_rail_surfaces
+
+    modules = (wheel_rail_contact, wheel_rail_pair, wheel_rail_surfaces, vehicle, open_vehicle)
     return [
-        one for kind, module in KINDS.items() for one in of_kind(kind, import_module(module).entries(), f"{kind}.c")
+        one for kind, module in zip(KINDS, modules, strict=True) for one in of_kind(kind, module.entries(), f"{kind}.c")
     ]
 
 
@@ -99,8 +93,4 @@ def _no_field(values: Any, work: Any, k: Any, given: Any) -> int:
 
 
 #: What stands for functions that a kind does not need.
-_UNNEEDED: dict[str, Callable[..., Any]] = {
-    "lazy": _nothing,
-    "jacobian": _nothing,
-    "field": _no_field,
-}
+_UNNEEDED: dict[str, Callable[..., Any]] = {"lazy": _nothing, "jacobian": _nothing, "field": _no_field}

@@ -32,8 +32,5 @@ def licences(headers: Path) -> Iterator[tuple[str, str]]:
     yield "license.txt", _OVERVIEW
     yield "wheelrail-contact.txt", licence()
     yield "fmi.txt", interface[: interface.index("*/")].rstrip() + "\n"
-    for name, path in (
-        ("zig", "LICENSE"),
-        ("musl", "lib/libc/musl/COPYRIGHT"),
-    ):
+    for name, path in (("zig", "LICENSE"), ("musl", "lib/libc/musl/COPYRIGHT")):
         yield f"{name}.txt", (ZIG / path).read_text()

@@ -15,14 +15,7 @@ from contact_models.vehicle.kernels.layout import Axis
 from ..tables.open_vehicle import table
 from .component import places
 from .components import OpenFailure
-from .vehicle_parts import (
-    arrange,
-    constants_of,
-    fill,
-    kept_by,
-    track_after,
-    write_motion,
-)
+from .vehicle_parts import arrange, fill, lay_kept, track_after, write_motion
 
 _TABLE = table("manchester")  # its rows, of whatever size
 _AT = places(_TABLE)
@@ -36,8 +29,8 @@ def _parts_of(values, work, given):
     rows, _ = records(given.own, 0, 1, _AT)
     at = rows[0]
     track, n_track = track_after(given.resources, 0)
-    constants = constants_of(given.own, at, _N_PLACES)
-    parts, end = arrange(work, kept_by(at), track, n_track, at, constants)
+    begun, state, scratch, end = lay_kept(work, at)
+    parts, end = arrange(work, end, begun, state, scratch, track, n_track, given.own, _N_PLACES, at)
     return carray(values, (at.n_values,)), rows, parts, end
 
 
@@ -65,7 +58,7 @@ def _report(v, at, parts):
 
 
 def model_memory(values, given):
-    return kept_by(records(given.own, 0, 1, _AT)[0][0])
+    return lay_kept(values, records(given.own, 0, 1, _AT)[0][0])[3]
 
 
 def model_size(values, given):
@@ -75,8 +68,7 @@ def model_size(values, given):
 def model_prepare(values, work, given):
     v, rows, parts, _ = _parts_of(values, work, given)
     at = rows[0]
-    constants = constants_of(given.own, at, _N_PLACES)
-    fill(parts, constants, constants.radius, v[at.rail_origin_y], v[at.rail_origin_z], v[at.reference_speed])
+    fill(parts, v[at.rail_origin_y], v[at.rail_origin_z], v[at.reference_speed])
     return 0
 
 

@@ -5,12 +5,11 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from pathlib import Path
 
-from .. import archive
+from .. import archive, documentation
 from ..catalogue import Model
 from ..description import model_description
 from ..description_fmi3 import build_description
 from ..description_fmi3 import model_description as description_fmi3
-from ..documentation import markdown, page
 from ..icon import png
 from ..terminals import terminals
 from . import systems
@@ -92,11 +91,10 @@ def build(
     code = b"".join((*(binary for _, binary in binaries.values()), *files.values(), content(component, "")))
     guid, xml = model_description(table, interfaces, code + description_fmi3(table, interfaces_3, "").encode(), listed)
     common = [
-        (f"documentation/{table.name}.md", (markdown(table) + _TRIED).encode()),
+        *documentation.files(table, _TRIED),
         *((f"resources/{resource}", its) for resource, its in model.resources.items()),
         (f"resources/{NAME}", content(component, guid)),
         *((f"documentation/licenses/{path.name}", path.read_bytes()) for path in (made / "licenses").iterdir()),
-        ("documentation/index.html", page(table).encode()),
         *((f"sources/{name}", text) for name, text in files.items()),
     ]
     of_2 = [("modelDescription.xml", xml.encode()), *common, ("model.png", png(table.name))]

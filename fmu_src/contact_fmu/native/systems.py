@@ -21,7 +21,6 @@ from ..python import entry
 from .kinds import KINDS, OF_PYTHON, names
 
 _HERE = Path(__file__).parent
-_ROOT = _HERE.parents[2]
 #: The libraries of an installed package.
 INSTALLED = library.INSTALLED.parents[1]
 #: Headers of the C interface, the C source that chooses the kernels for the processor, and the wrapper that makes an FMU of it.
@@ -40,33 +39,6 @@ SYSTEMS = {
 }
 #: Systems whose libraries every FMU has, and those that are made from C.
 USUAL, ARM = ("linux64", "win64", "darwin64"), ("aarch64-linux", "aarch64-darwin")
-
-
-#: Modules of `fmu_src` that have no part in the kernels.
-_WITHOUT = {
-    *(
-        "archive",
-        "build",
-        "catalogue",
-        "command",
-        "description",
-        "description_fmi3",
-        "documentation",
-        "first_steps",
-        "icon",
-        "options",
-        "place",
-        "ssp",
-        "starts",
-        "doubts",
-        "validation",
-        "validation_cases",
-        "validation_mirror",
-        "validation_momentum",
-        "check",
-    ),
-    *("terminals", "headers", "licences", "packaging", "systems", "table"),
-}
 
 
 def folder(systems: Sequence[str] = USUAL, say: Callable[[str], None] = print) -> Path:
@@ -124,11 +96,7 @@ def kernels(say: Callable[[str], None] = print) -> Path:
 
 def _compiled(what: str) -> Path:
     """Return the folder of compiled kernels of a checkout. Its name has a hash of everything that they are made from."""
-    parts = [path for name in (".", "native", "tables") for path in (_HERE.parent / name).glob("*.py")]
-    parts = [path for path in parts if path.stem not in _WITHOUT]
-    models = (_ROOT / "models").rglob("*.py")
-    part = "systems" if what == "systems" else ""
-    content = digest(*parts, *models, *(_ROOT / "explorer").glob("patch.py"))
+    part, content = "systems" if what == "systems" else "", digest(*checkout.sources_of_added())
     return checkout.cache_folder() / f"{checkout.PREFIX}{checkout.fingerprint(part)}-{what}-{content}"
 
 
@@ -149,7 +117,7 @@ def _link(compiled: Path, made: Path, systems: Sequence[str], say: Callable[[str
     headers = [*HEADERS.glob("fmi[23]*.h"), *INCLUDE.glob("wheelrail_records.h")]
     for path in (*headers, *(path for path in compiled.glob("*.c") if path.name != "kernels.c")):
         copy(path, sources)
-    (sources / "build.h").write_text(header("wheelrail", tuple(KINDS), in_c=False), encoding="utf-8")
+    (sources / "build.h").write_text(header("wheelrail", KINDS, in_c=False), encoding="utf-8")
     in_c, include = [PROCESSOR, *(path for path in WRAPPER if path.suffix == ".c")], (WRAPPER[0].parent, sources)
     for system in systems:
         say(f"linking the library for {system}")

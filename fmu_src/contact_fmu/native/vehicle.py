@@ -23,14 +23,13 @@ from contact.kernels.rows import N_PROFILE_ROWS
 from contact_models.vehicle.kernels import motion
 from contact_models.vehicle.kernels.between import (
     TOLERANCE,
-    LastSolution,
-    Load,
     count_around,
     expect,
     keep_solution,
     take_expected,
 )
 from contact_models.vehicle.kernels.layout import Book
+from contact_models.vehicle.kernels.memory import lay_last
 from contact_models.vehicle.kernels.wheels import report_wheel, share_of_stick
 from ..rows import identifier
 from ..tables import wheel_rail_pair as pair_table
@@ -39,14 +38,7 @@ from ..variables import Causality
 from .component import places
 from .components import Failure
 from .kinds import SIGNATURES
-from .vehicle_parts import (
-    arrange,
-    constants_of,
-    fill,
-    kept_by,
-    track_after,
-    write_motion,
-)
+from .vehicle_parts import arrange, fill, lay_kept, track_after, write_motion
 from .wheel_rail_pair import layout_of
 from .wires import references
 
@@ -60,9 +52,7 @@ def _entry_of_pair(name: str) -> Any:
 _pair_memory, _pair_size = _entry_of_pair("memory"), _entry_of_pair("size")
 _pair_prepare, _pair_outputs = _entry_of_pair("prepare"), _entry_of_pair("outputs")
 _arrange_pair = layout_of(pair_table.table()).arrange
-_N_TOTALS, _N_GIVEN, _N_CONTACT, _N_LOADS = len(TOTALS), GIVEN.itemsize // 8, CONTACT.itemsize // 8, len(Load)
-#: Numbers of a wheel that carry over from its last solution: those of `LastSolution`, its patches and their share of stick.
-_N_LAST = _N_GIVEN + 2 * _N_LOADS + 6 + MAX_PATCHES * _N_CONTACT + 1
+_N_TOTALS, _N_GIVEN = len(TOTALS), GIVEN.itemsize // 8
 _POSITION, _BY_LOAD = (pair_table.LOAD_KIND.number(name) for name in ("Position", "NormalForce"))
 _WORST_STATUS = max(int(status) for status in Status)
 
@@ -114,43 +104,19 @@ def _starts(given):
 
 
 @arranging
-def _lay_last(work, at, end, n_wheels):
-    """Lay out the last solution of every wheel: what carries over from index `at` on, the rest from `end` on.
-
-    Return it, patches and shares of stick, and the new end.
-    """
-    asked, at = records(work, at, n_wheels, GIVEN)
-    answers, at = matrix(work, at, n_wheels, _N_LOADS)
-    drifts, at = matrix(work, at, n_wheels, _N_LOADS)
-    ages, at = vector(work, at, n_wheels)
-    paces, at = vector(work, at, n_wheels)
-    noises, at = vector(work, at, n_wheels)
-    powers, at = vector(work, at, n_wheels)
-    solutions, at = vector(work, at, n_wheels)
-    pending, at = vector(work, at, n_wheels)
-    patches, at = records(work, at, MAX_PATCHES * n_wheels, CONTACT)
-    sticks, at = vector(work, at, n_wheels)
-    expected, end = matrix(work, end, n_wheels, _N_LOADS)
-    slopes, end = vector(work, end, n_wheels)
-    loads, end = vector(work, end, n_wheels)
-    limits, end = vector(work, end, 2)
-    last = LastSolution(
-        asked, answers, drifts, expected, ages, paces, noises, powers, slopes, loads, solutions, pending, limits
-    )
-    return last, patches, sticks, end
-
-
-@arranging
 def _lay(values, work, given):
-    """Return the vehicle, its contacts, the place of the turned rail and the total size in numbers."""
+    """Return the vehicle, its contacts, the place of the turned rail, the size of what carries over, and the total size."""
     resources, at = given.resources, _places(given)[0]
     n_wheels = 2 * at.n_axles
     memory, size = _pair_memory(values, resources, given.own), next_line(_pair_size(values, resources, given.own))
     track, n_track = track_after(resources, 2)
-    totals, end = matrix(work, kept_by(at), _N_TOTALS, n_wheels)
-    memories, at_last = matrix(work, end, n_wheels, memory)
-    last, patches, sticks, end = _lay_last(work, at_last, at_last + _N_LAST * n_wheels, n_wheels)
-    parts, end = arrange(work, end, track, n_track, at, constants_of(given.own, at, _N_PLACES))
+    begun, state, scratch, end = lay_kept(work, at)
+    totals, end = matrix(work, end, _N_TOTALS, n_wheels)
+    memories, end = matrix(work, end, n_wheels, memory)
+    last, end = lay_last(work, end, n_wheels)
+    patches, end = records(work, end, MAX_PATCHES * n_wheels, CONTACT)
+    sticks, kept = vector(work, end, n_wheels)
+    parts, end = arrange(work, kept, begun, state, scratch, track, n_track, given.own, _N_PLACES, at)
     heights, values_at = vector(work, end, at.n_axles)
     of_sides, end = matrix(work, values_at, 2, _N_ITS)
     n_wheel = int(carray(resources, (1,))[0])
@@ -158,7 +124,7 @@ def _lay(values, work, given):
     turned, end = matrix(work, end, N_PROFILE_ROWS, n_rail)
     works_at = next_line(end)
     contacts = Contacts(of_sides, memories, totals, last, patches, sticks, heights, work, values_at, works_at, size)
-    return parts, contacts, turned, works_at + 2 * size
+    return parts, contacts, turned, kept, works_at + 2 * size
 
 
 @arranging
@@ -331,38 +297,35 @@ def _report(v, at, parts, contacts, total_at):
 
 
 def model_memory(values, given):
-    at = _places(given)[0]
-    n_wheels = 2 * at.n_axles
-    of_wheel = _N_TOTALS + _pair_memory(values, given.resources, given.own) + _N_LAST
-    return kept_by(at) + n_wheels * of_wheel
+    return _lay(values, values, given)[3]
 
 
 def model_size(values, given):
-    return _lay(values, values, given)[3]
+    return _lay(values, values, given)[4]
 
 
 def model_prepare(values, work, given):
     at = _places(given)[0]
     v = carray(values, (at.n_values,))
-    parts, contacts, turned, _ = _lay(values, work, given)
+    parts, contacts, turned, _, _ = _lay(values, work, given)
     code = _prepare_pairs(v, contacts, given)
     if code > 0:
         return code
     at_rail = 2 + N_PROFILE_ROWS * int(carray(given.resources, (1,))[0])
     turn(carray(ahead(given.resources, at_rail), turned.shape), -math.atan(v[at.rail_inclination]), turned)
     origin_y, origin_z, _ = rail_origin(turned, v[at.track_gauge], v[at.track_gauge_point])
-    fill(parts, constants_of(given.own, at, _N_PLACES), v[at.wheel_radius], origin_y, origin_z, v[at.reference_speed])
-    contacts.last.limits[0], contacts.last.limits[1] = v[at.resolution_pace], TOLERANCE
-    for w in range(contacts.memories.shape[0]):
-        contacts.last.loads[w] = parts.model.bodies[parts.model.wheelsets[w // 2]].load
+    fill(parts, origin_y, origin_z, v[at.reference_speed])
     return 0
 
 
 def model_outputs(values, work, h, given):
     at = _places(given)[0]
     v = carray(values, (at.n_values,))
-    parts, contacts, _, _ = _lay(values, work, given)
+    parts, contacts, _, _, _ = _lay(values, work, given)
     parts.model.surface[0], parts.model.surface[1] = v[at.friction_coefficient], v[at.friction_kinetic]
+    contacts.last.limits[0], contacts.last.limits[1] = v[at.resolution_pace], TOLERANCE
+    for w in range(contacts.memories.shape[0]):
+        contacts.last.loads[w] = parts.model.bodies[parts.model.wheelsets[w // 2]].load
     if parts.begun[0] == 0.0:
         code = _begin(v, at, parts, contacts, given)
         if code > _WORST_STATUS:

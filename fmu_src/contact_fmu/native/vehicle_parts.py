@@ -9,27 +9,13 @@ from numba import carray
 
 from contact.compile.pointers import integers_of
 from contact.core import arranging, group
-from contact.kernels.block import ahead, cube, matrix, records, vector
-from contact.kernels.records import GIVEN, MOTION
-from contact_models.vehicle.kernels.layout import (
-    BODY,
-    ELEMENT,
-    LINK,
-    SEAT,
-    WHEEL,
-    Book,
-    Model,
-    Scratch,
-    State,
-    Sum,
-    TrackFrame,
-    TrackRow,
-)
+from contact.kernels.block import ahead, matrix, records, vector
+from contact.kernels.records import MOTION
+from contact_models.vehicle.kernels.layout import BODY, ELEMENT, LINK, Book, Model, TrackRow
+from contact_models.vehicle.kernels.memory import lay_scratch, lay_state
 
 _INTEGER = np.dtype([("value", "i8")])
-_N_WHEEL = WHEEL.itemsize // 8
-_N_BODY, _N_LINK, _N_ELEMENT = BODY.itemsize // 8, LINK.itemsize // 8, ELEMENT.itemsize // 8
-_N_FRAME, _N_SUM, _N_BOOK, _N_ROW = len(TrackFrame), len(Sum), len(Book), len(TrackRow)
+_N_ROW = len(TrackRow)
 
 
 @group
@@ -41,92 +27,50 @@ class Parts(NamedTuple):
     state: Any
     scratch: Any
     motions: Any
-
-
-@group
-class Constants(NamedTuple):
-    """Pointers to the arrays of a vehicle in its numbers (`components`), and the wheels' radius."""
-
-    bodies: Any
-    links: Any
-    elements: Any
-    table: Any
-    wheelsets: Any
-    rail: Any
-    radius: Any
+    links: Any  # as declared, without rotations and offsets
+    radius: Any  # of the wheels [m]
 
 
 @arranging
-def constants_of(own, at, begin):
-    """Return the constants, which begin at index `begin` of the numbers, after `at`."""
-    links = begin + at.n_bodies * _N_BODY
-    elements = links + at.n_links * _N_LINK
-    table = elements + at.n_elements * _N_ELEMENT
-    wheelsets = table + 2 * at.n_table
-    rail = wheelsets + at.n_axles
-    radius, _ = vector(own, rail + 5, 1)
-    return Constants(
-        ahead(own, begin), ahead(own, links), ahead(own, elements), ahead(own, table), ahead(own, wheelsets),
-        ahead(own, rail), radius[0],
-    )  # fmt: skip
+def lay_kept(work, at):
+    """Return what carries over of a vehicle, at the beginning of `work`: `begun`, state, scratch; and its end."""
+    begun, end = vector(work, 0, 1)
+    state, end = lay_state(work, end, at.n_bodies, at.n_elements, at.n_axles)
+    scratch, end = lay_scratch(work, end, at.n_bodies, 2 * at.n_axles)
+    return begun, state, scratch, end
 
 
 @arranging
-def kept_by(at):
-    """Return the number of values that carry over from step to step."""
-    of_bodies = 1 + (3 * 6 * at.n_bodies) + 3 * at.n_elements
-    return of_bodies + (8 + 2 + 6) * at.n_axles + 2 * at.n_axles * (_N_SUM + _N_WHEEL) + _N_BOOK
+def arrange(work, end, begun, state, scratch, track, n_track, own, begin, at):
+    """Lay out the rest of a vehicle from index `end` on; return the vehicle and the new end.
 
-
-@arranging
-def arrange(work, end, track, n_track, at, constants):
-    """Lay out a vehicle: what carries over at the beginning of `work`, the rest from index `end` on.
-
-    `track` points to the rows of the track, with `n_track` places. Returns the vehicle and the new end.
+    `begun`, `state` and `scratch` are those of `lay_kept`. `track` points to the rows of the track, with `n_track` places. The
+    arrays of the vehicle (`components`) begin at index `begin` of the numbers `own`.
     """
-    n_bodies, n_elements, n_axles, n_wheels = at.n_bodies, at.n_elements, at.n_axles, 2 * at.n_axles
-    begun, to = vector(work, 0, 1)
-    q, to = matrix(work, to, n_bodies, 6)
-    u, to = matrix(work, to, n_bodies, 6)
-    inner, to = matrix(work, to, n_elements, 3)
-    rails, to = cube(work, to, n_axles, 2, 4)
-    loads, to = matrix(work, to, n_axles, 2)
-    sums, to = matrix(work, to, n_wheels, _N_SUM)
-    books, to = vector(work, to, _N_BOOK)
-    gains, to = matrix(work, to, n_axles, 6)
-    forces, to = matrix(work, to, n_bodies, 6)  # of the last step, for the work of what holds the bodies
-    wheels, to = records(work, to, n_wheels, WHEEL)  # of the last step, for the next one that solves no contact
-    own_links, end = records(work, end, at.n_links, LINK)
-    frames, end = matrix(work, end, n_bodies, _N_FRAME)
-    given, end = records(work, end, n_wheels, GIVEN)
-    seats, end = records(work, end, n_wheels, SEAT)
-    power, end = vector(work, end, 3)
-    motions, end = records(work, end, n_wheels, MOTION)
+    links, end = records(work, end, at.n_links, LINK)
+    motions, end = records(work, end, 2 * at.n_axles, MOTION)
     surface, end = vector(work, end, 2)
-    model = Model(
-        records(constants.bodies, 0, n_bodies, BODY)[0],
-        own_links,
-        records(constants.elements, 0, n_elements, ELEMENT)[0],
-        carray(constants.table, (2, at.n_table)),
-        carray(integers_of(records(constants.wheelsets, 0, n_axles, _INTEGER)[0]), (n_axles,)),
-        carray(track, (_N_ROW, n_track)),
-        carray(constants.rail, (5,)),
-        surface,
-    )
-    state = State(q, u, inner, rails, loads, sums, books, gains)
-    return Parts(begun, model, state, Scratch(frames, forces, given, seats, wheels, power), motions), end
+    bodies, to = records(own, begin, at.n_bodies, BODY)
+    declared, to = records(own, to, at.n_links, LINK)
+    elements, to = records(own, to, at.n_elements, ELEMENT)
+    table, to = matrix(own, to, 2, at.n_table)
+    wheelsets, to = records(own, to, at.n_axles, _INTEGER)
+    rail, to = vector(own, to, 5)
+    radius, _ = vector(own, to, 1)
+    numbers = carray(integers_of(wheelsets), (at.n_axles,))
+    model = Model(bodies, links, elements, table, numbers, carray(track, (_N_ROW, n_track)), rail, surface)
+    return Parts(begun, model, state, scratch, motions, declared, radius), end
 
 
 @arranging
-def fill(parts, constants, radius, origin_y, origin_z, slowest):
+def fill(parts, origin_y, origin_z, slowest):
     """Fill what depends only on the parameters."""
     own = parts.model.links
-    declared = records(constants.links, 0, own.size, LINK)[0]  # without rotations and offsets
     for k in range(own.size):
-        own[k].a, own[k].b = declared[k].a, declared[k].b
+        own[k].a, own[k].b = parts.links[k].a, parts.links[k].b
     for w in range(parts.motions.size):
         here = parts.motions[w]
-        here.radius, here.mirror = radius, 1.0 if w % 2 == 0 else -1.0
+        here.radius, here.mirror = parts.radius[0], 1.0 if w % 2 == 0 else -1.0
         here.origin_y, here.origin_z, here.slowest = origin_y, origin_z, slowest
 
 

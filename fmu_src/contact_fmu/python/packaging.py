@@ -8,10 +8,9 @@ from __future__ import annotations
 from collections.abc import Collection, Iterator
 from pathlib import Path
 
-from .. import archive
+from .. import archive, documentation
 from ..catalogue import Model
 from ..description import model_description
-from ..documentation import markdown, page
 from ..icon import png
 from ..native.table import NAME, content
 from ..place import licence
@@ -48,7 +47,6 @@ def _files(model: Model, platforms: Collection[str]) -> Iterator[tuple[str, byte
     for system, library in entry.libraries().items():
         if system in platforms:
             yield f"binaries/{system}/{name}{Path(entry.FILES[system]).suffix}", library
-    yield f"documentation/{name}.md", markdown(model.table).encode()
-    yield "documentation/index.html", page(model.table).encode()
+    yield from documentation.files(model.table)
     yield "model.png", png(name)
     yield "documentation/licenses/wheelrail-contact.txt", licence().encode()

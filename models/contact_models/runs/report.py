@@ -163,14 +163,7 @@ def _safety(run: VehicleRun) -> Table:
         )
     return Table(
         "Safety, greatest values",
-        [
-            ("", ""),
-            ("Y/Q", ""),
-            ("ΣY", "kN"),
-            ("Prud'homme", "kN"),
-            ("Q", "kN"),
-            ("1 − Q/Q₀", ""),
-        ],
+        [("", ""), ("Y/Q", ""), ("ΣY", "kN"), ("Prud'homme", "kN"), ("Q", "kN"), ("1 − Q/Q₀", "")],
         rows,
     )
 

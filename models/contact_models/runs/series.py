@@ -22,10 +22,7 @@ BODY = {
     "vertical": ("m", "vertical displacement downwards"),
     "roll": ("rad", "roll in the frame of the ideal track"),
     "yaw": ("rad", "yaw in that frame, clockwise seen from above"),
-    "lateral_acceleration": (
-        "m/s2",
-        "lateral acceleration felt in the plane of the track; mean since the last sample",
-    ),
+    "lateral_acceleration": ("m/s2", "lateral acceleration felt in the plane of the track; mean since the last sample"),
 }
 WHEEL = {
     "lateral_force": ("N", "Y, force of the wheel on the rail outwards; mean since the last sample"),

@@ -28,9 +28,10 @@ from contact.registry import DEFAULT_NORMAL, DEFAULT_TANGENTIAL
 from .assembly import Assembly, assemble
 from .declared import SIDES, VehicleDeclaration
 from .kernels import motion
-from .kernels.between import LONGEST_PACE, PACE, TOLERANCE, last_solution
+from .kernels.between import LONGEST_PACE, PACE, TOLERANCE, LastSolution
 from .kernels.frames import speed_at
-from .kernels.layout import Axis, Book, Model, Scratch, State, Sum, TrackRow, scratch
+from .kernels.layout import Axis, Book, Model, Scratch, State, TrackRow
+from .kernels.memory import lay_last, lay_scratch, lay_state
 from .kernels.wheel_arrays import WheelArrays, gather
 from .notebook import of_simulation
 from .sections import RailSection, require_apart
@@ -139,25 +140,16 @@ class Simulation(OwnsArrays):
         )  # fmt: skip
         n = len(made.names)
         axles = made.wheelsets.size
-        self.state = State(
-            q=np.zeros((n, 6)),
-            u=np.zeros((n, 6)),
-            inner=np.zeros((made.elements.size, 3)),
-            rails=np.zeros((axles, 2, 4)),
-            loads=np.zeros((axles, 2)),
-            sums=np.zeros((n_wheels, len(Sum))),
-            books=np.zeros(len(Book)),
-            gains=np.zeros((axles, 6)),
-        )
-        self.scratch: Scratch = scratch(n, made.wheelsets.size)
+        self.state: State = workspace.laid(lay_state, n, made.elements.size, axles)
+        self.scratch: Scratch = workspace.laid(lay_scratch, n, n_wheels)
         self._pairs = [
             self._pair(SIDES[k % 2], wheel, rail, ledgers[k] if ledgers else workspace.closed_ledger())
             for k, (wheel, rail) in enumerate(zip(wheels, rails, strict=True))
         ]
-        loads = np.repeat(made.bodies["load"][made.wheelsets], 2)
-        self.wheel_arrays: WheelArrays = gather(
-            self._pairs, last_solution(loads, self._options.pace, self._options.tolerance)
-        )
+        last: LastSolution = workspace.laid(lay_last, n_wheels)
+        last.loads[:] = np.repeat(made.bodies["load"][made.wheelsets], 2)
+        last.limits[:] = self._options.pace, self._options.tolerance
+        self.wheel_arrays: WheelArrays = gather(self._pairs, last)
         for name, value in members.items():
             self.wheel_arrays.cases[name] = value
         self._place(start)

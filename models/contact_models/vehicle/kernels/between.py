@@ -13,17 +13,11 @@ import math
 from enum import IntEnum
 from typing import NamedTuple
 
-import numpy as np
-from numpy.typing import NDArray
-
 from contact.core import group, kernel
 from contact.kernels import kalker
 from contact.kernels.arrays import Givens, Matrix, Numbers
 from contact.kernels.geometry.search import axle
-from contact.kernels.records import GIVEN
 from .layout import ELASTIC
-
-Array = NDArray[np.float64]
 
 #: Changes since the last solution from which on a contact is solved anew: of the approach, relative to it, and along the
 #: surface [m]. A contact that moves further may meet another part of the rail.
@@ -79,28 +73,6 @@ class LastSolution(NamedTuple):
     solutions: Numbers  # their number so far
     pending: Numbers  # amount of past steps that is not counted yet, less that of coming steps that is (`count_around`)
     limits: Numbers  # largest of `paces` (1: every step is a solution), and tolerance of a force over the static load
-
-
-def last_solution(loads: Array, pace: int, tolerance: float) -> LastSolution:
-    """Return these arrays for wheels with static `loads` [N], before the first solution."""
-    n = loads.size
-    answers, drifts, expected = (np.zeros((n, len(Load))) for _ in range(3))
-    ages, paces, noises, powers, slopes, solutions, pending = (np.zeros(n) for _ in range(7))
-    return LastSolution(
-        asked=np.zeros(n, GIVEN),
-        answers=answers,
-        drifts=drifts,
-        expected=expected,
-        ages=ages,
-        paces=paces,
-        noises=noises,
-        powers=powers,
-        slopes=slopes,
-        loads=loads,
-        solutions=solutions,
-        pending=pending,
-        limits=np.array([float(pace), tolerance]),
-    )
 
 
 @kernel

@@ -121,8 +121,7 @@ def pull(model, state, h, scratch):
         a, b, turn, offset = link.a, link.b, link.turn, link.offset
         arm_a, arm_b = _turned(q[a], bodies[a], element.on_a), _turned(q[b], bodies[b], element.on_b)
         end = _into_a(
-            turn,
-            (q[b, Axis.X] + arm_b[0], q[b, Axis.Y] + arm_b[1], q[b, Axis.Z] + arm_b[2] - bodies[b].height),
+            turn, (q[b, Axis.X] + arm_b[0], q[b, Axis.Y] + arm_b[1], q[b, Axis.Z] + arm_b[2] - bodies[b].height)
         )
         x, y, z = (
             end[0] + offset[0] - q[a, Axis.X],

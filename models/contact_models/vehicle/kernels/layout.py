@@ -14,7 +14,6 @@ import numpy as np
 
 from contact.core import Shape, group
 from contact.kernels.arrays import Cube, Givens, Integers, Matrix, Numbers
-from contact.kernels.records import GIVEN
 
 
 class Axis(IntEnum):
@@ -229,15 +228,3 @@ class Scratch(NamedTuple):
     seats: Seats  # the rail under each wheel
     wheels: Wheels  # one for each wheel: axle by axle, right before left
     power: Numbers  # damper, dissipation, elastic energy of this step
-
-
-def scratch(bodies: int, wheelsets: int) -> Scratch:
-    """Return scratch arrays."""
-    return Scratch(
-        np.zeros((bodies, len(TrackFrame))),
-        np.zeros((bodies, 6)),
-        np.zeros(2 * wheelsets, GIVEN),
-        np.zeros(2 * wheelsets, SEAT),
-        np.zeros(2 * wheelsets, WHEEL),
-        np.zeros(3),
-    )

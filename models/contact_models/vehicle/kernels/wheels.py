@@ -11,21 +11,7 @@ from contact.kernels.flexible import solve_rigid
 from contact.kernels.geometry.search import axle
 from .between import count_around, expect, keep_solution, take_expected
 from .frames import linear, place_on, smooth
-from .layout import (
-    ELASTIC,
-    TO_LEFT,
-    Axis,
-    Book,
-    Model,
-    Scratch,
-    Seat,
-    State,
-    Sum,
-    TrackFrame,
-    TrackRow,
-    Wheel,
-    Wheels,
-)
+from .layout import ELASTIC, TO_LEFT, Axis, Book, Model, Scratch, Seat, State, Sum, TrackFrame, TrackRow, Wheel, Wheels
 from .wheel_arrays import WheelArrays, arrays_of
 
 
