@@ -99,7 +99,7 @@ def forces(
     >>> gap = contact.Separation.hertzian(1.1, 0.8)
     >>> found = contact.forces(gap, ([0.0, 1e-3, 2e-3], 0.0, 0.0), load=80e3)
     >>> found.Fx.round().tolist()
-    [0.0, -11844.0, -19292.0]
+    [0.0, -11846.0, -19294.0]
     """
     given = [separation] if isinstance(separation, Separation) else separation
     separations = list(given) if isinstance(given, Iterable) else []
