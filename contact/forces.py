@@ -16,7 +16,7 @@ from contact.errors import ContactError, require_flag, require_integer
 from contact.friction import Friction
 from contact.inputs.creepage import Creepage
 from contact.inputs.material import STEEL, Material
-from contact.inputs.options import CREEPAGE, FRICTION, N_ELEMENTS, N_STRIPS
+from contact.inputs.options import APPROACH, CREEPAGE, FRICTION, LOAD, N_ELEMENTS, N_STRIPS
 from contact.inputs.plausibility import doubt_alike, doubt_values
 from contact.inputs.separation import Separation
 from contact.instance import workspace
@@ -99,7 +99,7 @@ def forces(
     >>> gap = contact.Separation.hertzian(1.1, 0.8)
     >>> found = contact.forces(gap, ([0.0, 1e-3, 2e-3], 0.0, 0.0), load=80e3)
     >>> found.Fx.round().tolist()
-    [0.0, -11844.0, -19292.0]
+    [0.0, -11846.0, -19294.0]
     """
     given = [separation] if isinstance(separation, Separation) else separation
     separations = list(given) if isinstance(given, Iterable) else []
@@ -111,9 +111,8 @@ def forces(
     surface, coefficients = (friction, friction.static) if isinstance(friction, Friction) else (None, friction)
     index = np.arange(len(separations)) if not isinstance(separation, Separation) else np.array(0)
     load_name = "approach" if load is None else "load"
-    columns: dict[str, NDArray[Any]] = {
-        load_name: require_numbers("load", load, 0.0) if load is not None else require_numbers("approach", approach)
-    }
+    limits, wanted = (APPROACH, approach) if load is None else (LOAD, load)
+    columns: dict[str, NDArray[Any]] = {load_name: require_numbers(load_name, wanted, *limits.bounds)}
     for name, value in zip(_PARTS, creepages, strict=True):
         columns[f"creepage.{name}"] = require_numbers(f"creepage.{name}", value, *CREEPAGE.bounds)
     columns["friction"] = require_numbers("friction", coefficients, *FRICTION.bounds)

@@ -145,7 +145,7 @@ def solve(
     >>> gap = contact.Separation.hertzian(1.1, 0.8)
     >>> solution = contact.solve(gap, contact.Creepage(1e-3), load=80e3)
     >>> round(solution.Fx), round(solution.max_pressure / 1e6), solution.status
-    (-11844, 893, <Status.OK: 1>)
+    (-11846, 893, <Status.OK: 1>)
     """
     require_kind("material", material, Material)
     conformal = require_flag("conformal", conformal)

@@ -16,7 +16,7 @@ from contact.friction import Friction, as_friction
 from contact.given_force import as_numbers, wanted_force
 from contact.inputs.creepage import Creepage, as_creepage
 from contact.inputs.material import STEEL, Material
-from contact.inputs.options import ITERATIONS, N_ELEMENTS, N_STRIPS
+from contact.inputs.options import APPROACH, ITERATIONS, LOAD, N_ELEMENTS, N_STRIPS
 from contact.inputs.plausibility import doubt_alike, doubt_case
 from contact.inputs.separation import Separation
 from contact.instance import workspace
@@ -63,7 +63,7 @@ def require_amount(load: object, approach: object) -> float:
     """Return the load [N] or the approach [m], one of which is given, or raise a ContactError."""
     if (load is None) == (approach is None):
         raise ContactError(f"exactly one of load and approach is needed; load = {load}, approach = {approach}")
-    return require_number("load", load, 0.0) if load is not None else require_number("approach", approach)
+    return LOAD.require("load", load) if load is not None else APPROACH.require("approach", approach)
 
 
 class Solver(OwnsArrays):

@@ -127,9 +127,16 @@ REFUSED: list[tuple[Callable[[], Any], str]] = [
     (lambda: contact.hertz(1.0, 1.0, load=1.0, approach=1.0), "exactly one"),
     (
         lambda: contact.forces(ELLIPSE, CREEPAGE, load=[1.0, -2.0]),
-        r"load\[1\] = -2 is outside the allowed range \[0, inf\[",
+        r"load\[1\] = -2 is outside the allowed range \[0, 1e\+15\]",
     ),
     (lambda: contact.forces(ELLIPSE, CREEPAGE, load=[1.0, math.nan]), r"load\[1\] = nan"),
+    (
+        lambda: contact.forces(ELLIPSE, CREEPAGE, load=1e300),
+        r"load = 1e\+300 is outside the allowed range \[0, 1e\+15\]",
+    ),
+    (lambda: solve(load=1e300), r"load = 1e\+300 is outside"),
+    (lambda: solve(approach=1e300), r"approach = 1e\+300 is outside the allowed range \[-1e\+15, 1e\+15\]"),
+    (lambda: solve(load=1e200, **HALF), r"load = 1e\+200 is outside"),
     (lambda: contact.forces(ELLIPSE, CREEPAGE, load=1.0, friction=[[0.1], [-1.0]]), r"friction\[1, 0\] = -1"),
     (
         lambda: contact.forces(ELLIPSE, CREEPAGE, load=[1.0, 2.0], friction=[0.1, 0.2, 0.3]),

@@ -8,7 +8,7 @@ import numpy as np
 
 from contact.errors import ContactError, require_number
 from contact.geometry.records import Irregularity, Pose, Velocity
-from contact.inputs.options import MEMBERS, RADIUS, REFERENCE_SPEED
+from contact.inputs.options import LOAD, MEMBERS, RADIUS, REFERENCE_SPEED
 from contact.inputs.plausibility import USUAL, doubt_value
 from contact.instance.ownership import OwnsArrays, one_thread
 from contact.kernels.enumerations import Height, NoAnswer
@@ -146,7 +146,7 @@ class Posed(OwnsArrays):
         if load is not None and penetration is not None:
             raise ContactError(f"load = {load} and penetration = {penetration} exclude each other")
         if load is not None:
-            return Height.LOAD, require_number("load", load, 0.0)
+            return Height.LOAD, LOAD.require("load", load)
         if penetration is not None:
             return Height.PENETRATION, require_number("penetration", penetration, 0.0, MAX_PENETRATION)
         return Height.GIVEN, 0.0

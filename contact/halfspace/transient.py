@@ -38,6 +38,7 @@ from contact.halfspace.third_body import ThirdBody
 from contact.halfspace.unlike import Coupling
 from contact.inputs.creepage import Creepage, as_creepage
 from contact.inputs.material import STEEL, Material
+from contact.inputs.options import APPROACH, LOAD
 from contact.inputs.separation import Separation
 from contact.instance.ownership import OwnsArrays, one_thread, within
 from contact.results import Status
@@ -117,9 +118,9 @@ class Transient(OwnsArrays):
         if layer is not None and not isinstance(layer, ThirdBody):
             raise ContactError(f"layer = {layer!r} is not a contact.ThirdBody")
         if load is not None:
-            self._amount = {"load": require_number("load", load, 0.0, open_minimum=True)}
+            self._amount = {"load": require_number("load", load, *LOAD.bounds, open_minimum=True)}
         else:
-            self._amount = {"approach": require_number("approach", approach)}
+            self._amount = {"approach": APPROACH.require("approach", approach)}
         self._set_friction(friction)
         self.material = material
         self.speed, self._progress = require_number("speed", speed, 0.0), progress
@@ -331,7 +332,7 @@ class Transient(OwnsArrays):
             most = math.inf if isinstance(self._gap, Gap) else self._largest
             self._amount = {"load": require_number("load", load, 0.0, most)}
         elif approach is not None:
-            self._amount = {"approach": require_number("approach", approach)}
+            self._amount = {"approach": APPROACH.require("approach", approach)}
         if gap is None:
             return
         if not isinstance(gap, Gap):

@@ -502,7 +502,7 @@ typedef struct {
     M(conformal, WHOLE, 0, 1, 0, __VA_ARGS__)
 #define WR_CASE_RANGES(M, ...) \
     M(load_kind, WHOLE, 0, 1, 0, __VA_ARGS__) \
-    M(amount, REAL, -INFINITY, INFINITY, 0.0, __VA_ARGS__) \
+    M(amount, REAL, -1000000000000000.0, 1000000000000000.0, 0.0, __VA_ARGS__) \
     M(vx, REAL, -1000000.0, 1000000.0, 0.0, __VA_ARGS__) \
     M(vy, REAL, -1000000.0, 1000000.0, 0.0, __VA_ARGS__) \
     M(phi, REAL, -1000000.0, 1000000.0, 0.0, __VA_ARGS__) \
@@ -531,7 +531,7 @@ typedef struct {
     M(reference_speed, REAL, 1e-06, 10.0, 0.001, __VA_ARGS__)
 #define WR_PAIR_INPUT_RANGES(M, ...) \
     M(height, WHOLE, 0, 3, 2, __VA_ARGS__) \
-    M(amount, REAL, 0.0, INFINITY, 0.0, __VA_ARGS__) \
+    M(amount, REAL, 0.0, 1000000000000000.0, 0.0, __VA_ARGS__) \
     M(distance, REAL, 0.0, INFINITY, 0.0, __VA_ARGS__) \
     M(station, REAL, -10000000.0, 10000000.0, 0.0, __VA_ARGS__) \
     M(rotation, REAL, -100000000.0, 100000000.0, 0.0, __VA_ARGS__)

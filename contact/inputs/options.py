@@ -73,6 +73,8 @@ SAMPLES = Whole(81, 5, 2001)
 SEPARATION_SAMPLES = Whole(101, 3, 100_000)
 #: Distance before and behind the axle in which surfaces are searched [m].
 REACH = Real(0.06, 0.01, 0.3)
+#: Load [N] and approach [m]: sums and squares of much larger ones overflow.
+LOAD, APPROACH = Real(0.0, 0.0, 1e15), Real(0.0, -1e15, 1e15)
 #: Coefficient of friction: above the largest, squares could overflow. Temperatures [K], the last one above all melting points.
 FRICTION, ROOM_TEMPERATURE, HOTTEST = Real(0.3, 0.0, 1e6), 293.15, 1e5
 #: Temperature of the bodies, at which friction begins to fall, and rise over which it falls [K].
@@ -133,7 +135,7 @@ MEMBERS: dict[str, Mapping[str, Whole | Real]] = {
     "case": {
         **SURFACE,
         "load_kind": Whole(int(LoadKind.LOAD), int(LoadKind.LOAD), int(LoadKind.APPROACH)),
-        "amount": Real(0.0),
+        "amount": APPROACH,
         "vx": CREEPAGE,
         "vy": CREEPAGE,
         "phi": CREEPAGE,
@@ -165,7 +167,7 @@ MEMBERS: dict[str, Mapping[str, Whole | Real]] = {
     },
     "pair_input": {
         "height": Whole(int(Height.LOAD), min(map(int, Height)), max(map(int, Height))),
-        "amount": Real(0.0, 0.0),
+        "amount": LOAD,
         "distance": Real(0.0, 0.0),
         "station": Real(0.0, -1e7, 1e7),
         "rotation": Real(0.0, -1e8, 1e8),

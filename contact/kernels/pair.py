@@ -41,6 +41,9 @@ _ROUGH = 1e-3
 _ITERATED, _NOISE, _IDLE, _RESTLESS = 1e-5, 1e-4, 2, 5e-4
 #: Iterations up to which a solution is a start for the next trial. What takes more may have two solutions at one height.
 _QUICK = 8
+#: Most solutions for a load, each of which lays the patch anew, and the change of the force up to which the height may move
+#: after the last one: laid once more, 400 random patches then carried 5e-5 more or less at most, the noise of their strips.
+_MOST_LAID, _LAID = 5, 3e-4
 #: Target and accepted residual on surfaces that change along the way, the second with friction. On the edge of a fresh flat the
 #: force is not smooth in z.
 _ROUGHER, _ACCEPTABLE_ROUGH = 1e-7, 1e-2
@@ -233,38 +236,57 @@ def _begin_under(force, search, root):
 
 
 @kernel
-def _press_under(mode, force, root, arrays):
-    """Solve the normal problem of the single patch of the last search for the force, not for its approach.
-
-    Set the depth to the one at which it is carried. With Height.VERTICAL that is the depth at which friction leaves the force.
-    """
-    patch, case, result = arrays.search.patches[0], arrays.patch_case[0], arrays.result[0]
-    set_case(patch, arrays.search.motion[0], arrays.case[0], case)
-    cosine = math.cos(patch.angle) * math.cos(patch.pitch)
-    samples, of_patch = workspace_of(0, arrays)
-    clear(result)
-    n_strips = strips_under(force / cosine, samples, case, of_patch, result)
-    if n_strips == 0 or abs(result.N * cosine - force) > _ROUGH * force or not result.stiffness > 0.0:
-        return
-    rise, growth = (result.approach - patch.approach) / cosine, result.stiffness / result.N * cosine
-    if mode == Height.VERTICAL:
-        case.amount = result.approach
-        _solve(1, n_strips, True, False, arrays)
-        vertical = -arrays.total[0].Fz
-        if not vertical > 0.0:
-            return
-        rise += 1.5 * ((force / vertical) ** (2.0 / 3.0) - 1.0) / growth
-    depth = root.x + rise
-    if root.first < depth < root.last:
-        begin_root(root, depth, root.slope, root.first, root.last)
-
-
-@kernel
 def _start_of(n, quick, arrays):
     """Prepare to solve the `n` patches of a search, which start from the last trial if it was `quick`. Return n."""
     if not quick:
         arrays.memory[:] = 0.0
     return _prepared(n, arrays)
+
+
+@kernel
+def _press_for_load(mode, force, touch, nodes, root, arrays):
+    """Find the height that carries `force` by solving the normal problem of a single patch for its load.
+
+    Each solution lays the patch at the height that the last one has found, and asks for the load that would have left `force`
+    there; the first one is rough. With Height.VERTICAL the tangential problem is solved too. Return the number of strips; 0
+    where there are more patches than one, -1 where strips that find no rest quickly have brought `root` near the height.
+    """
+    search, motion, result, case = arrays.search, arrays.search.motion[0], arrays.result[0], arrays.patch_case[0]
+    share, quick = 1.0, False
+    for k in range(_MOST_LAID):
+        if _start_of(describe(search, touch + root.x, nodes), quick, arrays) != 1:
+            return 0
+        patch, rough = search.patches[0], k == 0
+        set_case(patch, motion, arrays.case[0], case)
+        cosine = math.cos(patch.angle) * math.cos(patch.pitch)
+        asked = force / (share * cosine)
+        samples, of_patch = workspace_of(0, arrays)
+        clear(result)
+        n_strips = strips_under(asked, rough, samples, case, of_patch, result)
+        missed = abs(result.N - asked) > _ROUGH * asked
+        if n_strips == 0 or missed or result.status == Status.NOT_CONVERGED or not result.stiffness > 0.0:
+            return 0
+        growth, rise = result.stiffness / result.N * cosine, (result.approach - patch.approach) / cosine
+        motion.z, case.amount, patch.approach = touch + root.x + rise, result.approach, result.approach
+        patch.point_z += rise  # the arms of its forces are those of its creepages
+        quick, reached = result.iterations <= _QUICK, result.N * cosine
+        if mode == Height.VERTICAL:
+            _solve(1, n_strips, rough, False, arrays)
+            reached = -arrays.total[0].Fz
+            if not reached > 0.0:
+                return 0
+        share = reached / (asked * cosine)
+        motion.missed = abs(reached - force) / force
+        if quick and not rough and abs(rise) * growth <= _LAID and motion.missed <= _ITERATED:
+            root.evaluations = k + 1
+            return n_strips
+        depth = root.x + rise + 1.5 * ((force / reached) ** (2.0 / 3.0) - 1.0) / growth
+        if not root.first < depth < root.last:
+            return 0
+        begin_root(root, depth, root.slope, root.first, root.last)
+        if not quick and not rough:
+            return -1
+    return 0
 
 
 @kernel
@@ -283,11 +305,11 @@ def _solve_under(mode, force, arrays):
     """As `solve_pair` for Height.LOAD and Height.VERTICAL: find the height by bracketed secants over the own forces.
 
     The force grows with the power 3/2 of the depth, so the secants are those of its power 2/3. The slope at the first trial is
-    that of the normal method, right to some per cent. Interacting strips of a single patch are first solved for the force,
-    which brings the height within about the noise of theirs. No trial starts from another pose, and only from a trial before
-    that came to rest quickly, so the answer does not depend on the way, and differs from that of the height alone by this
-    noise. Under a load, a single patch has no tangential problem before the height is found. Where the force jumps over the
-    load, the nearest height found is the answer, with the status NOT_CONVERGED.
+    that of the normal method, right to some per cent. Interacting strips of a single patch need no search: they are solved for
+    the load (`_press_for_load`). No trial starts from another pose, and only from a trial before that came to rest quickly, so
+    the answer does not depend on the way, and differs from that of the height alone by the noise of the strips. Under a load, a
+    single patch has no tangential problem before the height is found. Where the force jumps over the load, the nearest height
+    found is the answer, with the status NOT_CONVERGED.
     """
     search, total, motion, root = arrays.search, arrays.total[0], arrays.search.motion[0], arrays.roots[2]
     if force <= 0.0:
@@ -304,17 +326,22 @@ def _solve_under(mode, force, arrays):
     acceptable = _ACCEPTABLE_ROUGH if changing and mode == Height.VERTICAL else _ACCEPTABLE
     best, z_best, mark, missing, idle = math.inf, touch, math.inf, math.inf, 0
     starts, quick = iterated and not changing, False
-    by_load = starts and not 0.0 < arrays.case[0].pressure_limit < math.inf
+    enters, slow = _enters(arrays), False
+    if starts and not 0.0 < arrays.case[0].pressure_limit < math.inf:
+        pressed = _press_for_load(mode, force, touch, nodes, root, arrays)
+        if pressed > 0:
+            if mode == Height.LOAD:
+                _solve(1, pressed, False, enters, arrays)
+            elif enters:
+                enter(search.patches[0], pressed, arrays.damage[0], arrays)
+            return 1
+        slow = pressed < 0
+        missing = 0.0 if slow else missing
     while True:
         z = touch + root.x
         if changing:  # grids that are laid for another height would change the force
             begin(search, z)
         n = _start_of(describe(search, z, nodes), quick, arrays)
-        if by_load and n == 1:
-            _press_under(mode, force, root, arrays)
-            by_load, missing, quick = False, 0.0, arrays.result[0].iterations <= _QUICK
-            continue
-        by_load = False
         pressed = _press_patch(0, arrays) if n == 1 else -1
         rolls = mode == Height.VERTICAL or n != 1
         brief = rolls and missing > _ROUGH  # this trial will hardly be the last one
@@ -334,14 +361,14 @@ def _solve_under(mode, force, arrays):
         if missing < _SHARE * mark:
             mark, idle = missing, 0
         goes_on = advance(root, max(reached, 0.0) ** (2.0 / 3.0) - force ** (2.0 / 3.0), _SHORTEST, _MOST)
-        noise = iterated and ((best <= _NOISE and idle >= _IDLE) or (best <= _RESTLESS and _is_restless(n, arrays)))
+        noise = best <= _NOISE and (slow or idle >= _IDLE)
+        noise = iterated and (noise or (best <= _RESTLESS and _is_restless(n, arrays)))
         quick = starts and n == 1 and arrays.result[0].iterations <= _QUICK
         if missing <= tolerance or noise or idle >= _JUMP or not goes_on:
             break
     motion.missed = best
     if best > acceptable and root.high == root.last:
         return NoAnswer.NOT_SETTLED.value
-    enters = _enters(arrays)
     if z != z_best or brief or (n > 1 and enters):
         if changing:
             begin(search, z_best)

@@ -20,6 +20,7 @@ from contact.geometry.records import Irregularity, Pose, Velocity
 from contact.geometry.surfaces import SurfacePair, SurfacePatch
 from contact.halfspace.third_body import ThirdBody
 from contact.inputs.creepage import Creepage
+from contact.inputs.options import LOAD
 from contact.instance.ownership import one_thread, within
 from contact.kernels.enumerations import Height
 from contact.pair.driven import drive
@@ -200,7 +201,7 @@ class HalfspacePair(AnyPair):
     def _at(self, at: Instant, load: float | None, penetration: float | None, vertical: float | None) -> PairSolution:
         """Return the solution at a height, or under a force."""
         if vertical is not None:
-            require_number("vertical", vertical, 0.0)
+            LOAD.require("vertical", vertical)
         mode, amount = self.pair.prescribed(load, penetration)
         self._place(at)
         self._doubt(at, *((load, "load") if vertical is None else (vertical, "vertical")))

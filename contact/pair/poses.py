@@ -16,7 +16,7 @@ from contact.forces import cores
 from contact.friction import Friction
 from contact.geometry.posed import MAX_PENETRATION
 from contact.geometry.wheelset import Pair
-from contact.inputs.options import CREEPAGE, FRICTION
+from contact.inputs.options import CREEPAGE, FRICTION, LOAD
 from contact.inputs.plausibility import doubt_values
 from contact.instance.case import set_surface
 from contact.kernels.enumerations import Height
@@ -129,7 +129,7 @@ def over_poses(
     surface, coefficients = (friction, friction.static) if isinstance(friction, Friction) else (None, friction)
     mode, limited = Height.GIVEN, require_numbers("z", z)
     if load is not None:
-        mode, limited = Height.LOAD, require_numbers("load", load, 0.0)
+        mode, limited = Height.LOAD, require_numbers("load", load, *LOAD.bounds)
         doubt_values("wheel load", limited)
     elif penetration is not None:
         mode, limited = Height.PENETRATION, require_numbers("penetration", penetration, 0.0, MAX_PENETRATION)

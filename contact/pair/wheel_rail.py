@@ -19,7 +19,7 @@ from contact.geometry.records import Irregularity, Pose, Velocity
 from contact.geometry.surfaces import SurfacePair
 from contact.geometry.wheelset import Pair
 from contact.inputs.material import STEEL, Material
-from contact.inputs.options import ITERATIONS, N_ELEMENTS, N_STRIPS
+from contact.inputs.options import ITERATIONS, LOAD, N_ELEMENTS, N_STRIPS
 from contact.inputs.plausibility import doubt_alike
 from contact.instance import workspace
 from contact.instance.case import SURFACE, cases, surface_bytes
@@ -263,7 +263,7 @@ class WheelRailPair(AnyPair):
         if vertical is None:
             mode, amount = self.pair.prescribed(load, penetration)
         elif load is None and penetration is None:
-            mode, amount = Height.VERTICAL, require_number("vertical", vertical, 0.0)
+            mode, amount = Height.VERTICAL, LOAD.require("vertical", vertical)
         else:
             raise ContactError(f"vertical = {vertical} excludes load = {load} and penetration = {penetration}")
         self._distance[0] = require_number("distance", distance, 0.0)

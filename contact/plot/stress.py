@@ -67,7 +67,7 @@ def stress(
         right.set(xlabel="stress [MPa]", ylabel="depth [mm]", ylim=(MM * z[-1], 0.0))
         right.set_title(f"at x = {MM * peak.x:.2f}, y = {MM * peak.y:.2f} mm", loc="left", fontsize=8.0)
         right.grid(visible=True)
-        right.legend(loc="lower right")
+        right.legend(loc="lower left")
     return figure
 
 

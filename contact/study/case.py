@@ -36,7 +36,7 @@ class Case:
     >>> import contact
     >>> case = contact.Case(contact.Separation.hertzian(1.1, 0.8), contact.Creepage(1e-3), load=80e3, name="tread")
     >>> round(contact.solve(**case.arguments).Fx)
-    -11844
+    -11846
     """
 
     separation: Separation

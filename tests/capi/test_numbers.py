@@ -204,17 +204,25 @@ def test_the_derivatives_of_a_patch_have_the_bits_of_the_solver(library):
 
 
 @pytest.mark.parametrize("side", [1, -1])
-@pytest.mark.parametrize("height", ["load", "vertical", "given"])
-def test_a_pair_and_its_derivatives_have_the_bits_of_python(library, side, height):
+@pytest.mark.parametrize(
+    ("height", "speed", "slowest"),
+    [("load", 20.0, 1e-3), ("vertical", 20.0, 1e-3), ("given", 20.0, 1e-3),
+     *(("load", speed, slowest) for speed in (-3.0, -1e-12, 0.0, 0.02) for slowest in (1e-3, 5.0))],
+)  # fmt: skip
+def test_a_pair_and_its_derivatives_have_the_bits_of_python(library, side, height, speed, slowest):
+    """Also rolling back, standing and near it."""
     wheel, rail, jacobian = profile.s1002(), profile.rail_60e1(), np.zeros((6, 17))
-    pair = Pair(library, wheel, rail, side=side)
-    reference = WheelRailPair(Profiles(wheel, rail, side="right" if side == 1 else "left"))
+    pair = Pair(library, wheel, rail, side=side, reference_speed=slowest)
+    reference = WheelRailPair(Profiles(wheel, rail, side="right" if side == 1 else "left", reference_speed=slowest))
+    motion = pair.input["motion"]
+    motion["vx"], motion["vy"], motion["spin"] = speed, 1e-4, -0.99 * speed / 0.46
     for lateral in (0.0, 3e-3, 6.5e-3):
         pose = Pose(lateral, 1e-4 if height == "given" else 0.0, 0.0, 2e-3)
         force = {} if height == "given" else {height: 80e3}
-        want = reference.solve(pose, Velocity(20.0), **force, derivatives=height != "vertical")
+        velocity = Velocity(speed, y=1e-4, spin=-0.99 * speed / 0.46)
+        want = reference.solve(pose, velocity, **force, derivatives=height != "vertical")
         pair.input["height"] = {"load": Height.LOAD, "vertical": Height.VERTICAL, "given": Height.GIVEN}[height]
-        pair.input["motion"]["y"], pair.input["motion"]["z"], pair.input["motion"]["yaw"] = pose.y, pose.z, pose.yaw
+        motion["y"], motion["z"], motion["yaw"] = pose.y, pose.z, pose.yaw
         pair.solve()
         total = pair.answer["total"][0]
         assert [total[n] for n in ("Fx", "Fy", "Fz", "Mx", "My", "Mz")] == [*want.force, *want.moment]

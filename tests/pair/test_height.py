@@ -79,14 +79,22 @@ def test_a_height_found_on_surfaces_carries_the_load(kind):
 
 
 @pytest.mark.parametrize("kind", ["load", "vertical"])
-def test_two_trials_find_the_height_on_average_after_a_solution_for_the_load(kind):
-    """There were ten, and each of them was a whole solution; then 3.4, and none for the load."""
+def test_two_or_three_solutions_find_the_height_on_average(kind):
+    """There were ten trials, and each of them was a whole solution; then 3.4; then 2.7 with the one for the load."""
     pair, counts = WheelRailPair(Pair(WHEEL, RAIL)), []
     for y in np.linspace(-4e-3, 6e-3, 21):
         assert pair.solve(Pose(y=y), VELOCITY, **{kind: 80e3}).status is not Status.NOT_CONVERGED
         counts.append(int(pair.arrays.roots["evaluations"][-1]))
-    assert np.mean(counts) < 2.2
+    assert np.mean(counts) < 2.6
+    assert min(counts) >= 1
     assert max(counts) <= 5
+
+
+@pytest.mark.parametrize("kind", ["load", "vertical"])
+def test_what_end_strips_under_tension_take_off_a_load_is_not_missing_at_its_height(kind):
+    """They take 2.8e-4 here, by which the pressures were lower than those at the height."""
+    pair, pose, force = WheelRailPair(Pair(WHEEL, RAIL)), Pose(y=-2.957e-3, yaw=4e-3), 159e3
+    assert_same_from_nothing(pair, pose, kind, 1e-4, force=force)
 
 
 @pytest.mark.parametrize(("y", "yaw"), [(5.54e-3, -17.9e-3), (5.48e-3, -8.79e-3), (5.53e-3, -17.3e-3)])

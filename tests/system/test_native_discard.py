@@ -7,8 +7,6 @@ import pytest
 #: FMU → an input or a tunable parameter, a valid value, and one that it refuses.
 REFUSED = {
     "WheelRailPair": ("pose.yaw", 0.0, 0.5),
-    "EllipticContact": ("friction.coefficient", 0.3, -1.0),
-    "Wheelset": ("speed", 28.0, 1000.0),
     "Vehicle": ("speed", 15.0, 1000.0),
 }
 

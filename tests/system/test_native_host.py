@@ -4,18 +4,14 @@ import os
 import re
 import shutil
 import subprocess
-from copy import copy
 
 import pytest
 from contact_case import NAME
 
-from contact.compile.linking import FLAGS, compiler, run
 from contact_fmu.catalogue import models
-from contact_fmu.native import systems, table
-from contact_fmu.native.headers import HEADERS
-from contact_fmu.native.kinds import KINDS
+from contact_fmu.native import table
 from contact_fmu.tables.wheel_rail_contact import POINTS
-from reference.native import ATTACKED, ROLES, SANITIZED, kernel_library, kernel_objects, sanitized
+from reference.native import ATTACKED, ROLES, SANITIZED, kernel_library, sanitized
 
 OTHERS = [name for name in ROLES if name != NAME]
 VALGRIND = ("valgrind", "--error-exitcode=9", "--leak-check=full", "-q")
@@ -122,22 +118,6 @@ def test_two_fmus_in_one_process_do_not_share_symbols(hosts, host, tmp_path):
         host("two_libraries", 0, other.library, other.guid, other.resources)
 
 
-def test_the_wrapper_has_no_undefined_behaviour(host, tmp_path):
-    """It is compiled so that undefined behaviour ends the program."""
-    (tmp_path / "build.h").write_text(systems.header("checked", tuple(KINDS), in_c=False))
-    checked = copy(host)
-    checked.library = tmp_path / "checked.so"
-    run(
-        *(*compiler("linux64"), *FLAGS, "-shared", "-fsanitize=undefined", "-fsanitize-trap=undefined"),
-        *(f"-I{path}" for path in (tmp_path, systems.WRAPPER[0].parent, systems.INCLUDE, HEADERS)),
-        *(path for path in systems.WRAPPER if path.suffix == ".c"),
-        *(*kernel_objects(), "-o", checked.library, "-lm"),
-    )
-    for command in COMMANDS:
-        checked(command)
-    checked("fuzz", 50_000)
-
-
 @pytest.mark.parametrize("name", [*ROLES, "Wheelset"])
 def test_sanitizers_find_nothing_in_the_sources(hosts, name, tmp_path):
     """Wrong accesses, leaks and undefined behaviour, in the wrapper and in the kernels: every call, random and wrong ones.
@@ -159,21 +139,14 @@ def test_sanitizers_find_nothing_in_the_sources(hosts, name, tmp_path):
         host.wrong_calls(tmp_path, 50)
 
 
-@pytest.mark.parametrize(("name", "command"), [("host", "fuzz"), ("host_fmi3", "random_calls")])
-def test_valgrind_finds_nothing(request, name, command):
-    """It looks for leaks and reads of uninitialised memory, over all calls and random ones."""
-    host = request.getfixturevalue(name)
+def test_valgrind_finds_nothing(host, host_fmi3, hosts):
+    """It looks for leaks and reads of uninitialised memory, over all calls and random ones. The pair has most kernels."""
     if not shutil.which("valgrind"):
         pytest.skip("MEMORY IS NOT CHECKED: valgrind is not installed (apt-get install valgrind)")
     host("every_call", before=VALGRIND)
-    host(command, 2000, before=VALGRIND)
-
-
-@pytest.mark.parametrize("name", OTHERS)
-def test_valgrind_finds_nothing_in_the_other_fmus(hosts, name):
-    if not shutil.which("valgrind"):
-        pytest.skip("MEMORY IS NOT CHECKED: valgrind is not installed (apt-get install valgrind)")
-    hosts("linux64", name)("fuzz", 1000, before=VALGRIND)
+    host_fmi3("every_call", before=VALGRIND)
+    host_fmi3("random_calls", 2000, before=VALGRIND)
+    hosts("linux64", "WheelRailPair")("fuzz", 1000, before=VALGRIND)
 
 
 def test_speed_can_be_measured(host, host_fmi3, tmp_path):

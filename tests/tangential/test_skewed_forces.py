@@ -26,7 +26,7 @@ def errors(P, Q, angle):
         strips = contact.solve(separation, creepage, load=LOAD, friction=FRICTION)
         elements = contact.solve(
             separation, creepage, load=LOAD, friction=FRICTION,
-            normal="halfspace", tangential="halfspace", n_strips=48, n_elements=48,
+            normal="halfspace", tangential="halfspace", n_strips=96, n_elements=96,
         )  # fmt: skip
         found.append(np.hypot(strips.Fx - elements.Fx, strips.Fy - elements.Fy) / (FRICTION * LOAD))
     return np.array(found)
@@ -34,7 +34,7 @@ def errors(P, Q, angle):
 
 @pytest.mark.parametrize("ellipse", ELLIPSES)
 def test_forces_on_turned_ellipses(ellipse):
-    """Without the turn the largest were .044, .066, .099 and .262 of mu N."""
+    """Without the turn the largest were .044, .066, .099 and .262 of mu N. With 48 elements the last is .060, with 96 .056."""
     assert errors(*ellipse).max() < 0.06
 
 

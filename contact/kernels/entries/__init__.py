@@ -7,10 +7,7 @@ The functions get valid arguments only: the files of `contact/c` check them.
 
 from __future__ import annotations
 
-from typing import Any
-
-#: Entry → function, type of the result, types of the arguments.
-Entries = dict[str, tuple[Any, str, tuple[str, ...]]]
+from contact.kernels.entries.layout import Entries
 
 
 def all_entries() -> Entries:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 from contact.core import COMPILING, arranging
 from contact.kernels import memory, quadrature
 from contact.kernels.arrays import Size, Tables, Workspace
@@ -12,6 +14,9 @@ from contact.kernels.normal.descent import fill_descent
 from contact.kernels.normal.factors import fill_factors
 from contact.kernels.records import MAX_PATCHES
 from contact.kernels.tangential.table import SHAPE as CREEP
+
+#: Entry → function, type of the result, types of the arguments.
+Entries = dict[str, tuple[Any, str, tuple[str, ...]]]
 
 if COMPILING:
     from numba import carray

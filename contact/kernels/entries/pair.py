@@ -14,8 +14,7 @@ from typing import Any, NamedTuple
 from contact.core import COMPILING, arranging, group
 from contact.kernels import block, memory, quadrature
 from contact.kernels.damage.deposit import arc_length
-from contact.kernels.entries import Entries
-from contact.kernels.entries.layout import copy, copy_rows, fill, forget_forged, lay_out, size_of
+from contact.kernels.entries.layout import Entries, copy, copy_rows, fill, forget_forged, lay_out, size_of
 from contact.kernels.flexible import solve_flexible
 from contact.kernels.geometry.prepare import facing, rail_origin, take_nodes
 from contact.kernels.pair import solve_patch

@@ -13,8 +13,7 @@ from contact.core import arranging, group
 from contact.kernels import block, memory
 from contact.kernels.arrays import Samples, SolverArrays
 from contact.kernels.damage.assess import damage_kernel
-from contact.kernels.entries import Entries
-from contact.kernels.entries.layout import copy, fill, forget_forged, lay_out, size_of
+from contact.kernels.entries.layout import Entries, copy, fill, forget_forged, lay_out, size_of
 from contact.kernels.given_force import solve_under_force
 from contact.kernels.jacobian import COLUMNS, ROWS, solve_with_jacobian
 from contact.kernels.pipeline import solve_case

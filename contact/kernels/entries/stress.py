@@ -5,8 +5,7 @@ from __future__ import annotations
 from contact.core import arranging
 from contact.kernels import block
 from contact.kernels.arrays import LoadGrid, PatchFields, PatchStrips
-from contact.kernels.entries import Entries
-from contact.kernels.entries.layout import size_of
+from contact.kernels.entries.layout import Entries, size_of
 from contact.kernels.records import MAX_PATCHES, RESULT
 from contact.kernels.rows import Field, Strip
 from contact.kernels.stress.below import N_LOADS, N_STRESSES, stresses_at

@@ -13,8 +13,7 @@ from contact.core import COMPILING, arranging
 from contact.kernels import block, memory, quadrature
 from contact.kernels.arrays import Sheet
 from contact.kernels.block import ahead
-from contact.kernels.entries import Entries
-from contact.kernels.entries.layout import copy, fill, lay_out, size_of
+from contact.kernels.entries.layout import Entries, copy, fill, lay_out, size_of
 from contact.kernels.entries.pair import entries_of, lay_start, reset, set_options
 from contact.kernels.rows import N_PROFILE_ROWS, Bin
 

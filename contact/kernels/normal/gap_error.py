@@ -38,9 +38,12 @@ def summarise(n, strips, vectors):
 
 
 @kernel
-def fill_sides(at, n, strips, vectors, lows, highs):
-    """Fill the logarithms of the distances of y = `at` from the nearer and the farther side of each strip, over its a."""
-    end, beyond = -math.inf, 0.0
+def fill_sides(at, n, strips, vectors):
+    """Fill the logarithms of the distances of y = `at` from the nearer and the farther side of each strip, over its a.
+
+    They are the rows REACH and SPREAD of the vectors.
+    """
+    lows, highs, end, beyond = vectors[Vector.REACH], vectors[Vector.SPREAD], -math.inf, 0.0
     for j in range(n):
         y, half, ln_a = strips[Strip.Y, j], 0.5 * strips[Strip.DY, j], vectors[Vector.Q1, j]
         before = beyond  # the logarithm of the distance to the side of the strip before is that to the side of this one
@@ -53,20 +56,20 @@ def fill_sides(at, n, strips, vectors, lows, highs):
 
 @kernel
 def displacement_at(locus, strip, n, strips, vectors, plane):
-    """Return the displacement at x = locus times pi E* [N/m], with the sides in `pairs`. `strip` is the one there or -1."""
+    """Return the displacement at x = locus times pi E* [N/m], after `fill_sides`. `strip` is the one there or -1."""
     pairs = vectors[Vector.PAIRS : Vector.PAIRS + len(Pair)]
     for j in range(n):
         pairs[Pair.X, j] = abs(strips[Strip.XC, j] - locus) * vectors[Vector.Q2, j]
+        pairs[Pair.LOW, j], pairs[Pair.HIGH, j] = vectors[Vector.REACH, j], vectors[Vector.SPREAD, j]
     fill_ln_X(n, pairs)
     return displacement(plane, vectors[Vector.R, :n], pairs, strip)
 
 
 @kernel
-def _displacement(at, locus, strip, n, strips, vectors, plane):
-    """Return the displacement at y = at, x = locus times pi E* [N/m]. The point lies in `strip`; -1 if in none."""
-    pairs = vectors[Vector.PAIRS : Vector.PAIRS + len(Pair)]
-    fill_sides(at, n, strips, vectors, pairs[Pair.LOW], pairs[Pair.HIGH])
-    return displacement_at(locus, strip, n, strips, vectors, plane)
+def _displacement(at, locus, n, strips, vectors, plane):
+    """Return the displacement at y = at, x = locus outside all strips, times pi E* [N/m]."""
+    fill_sides(at, n, strips, vectors)
+    return displacement_at(locus, -1, n, strips, vectors, plane)
 
 
 @kernel
@@ -98,7 +101,7 @@ def _overlap_at(sep, at, n, delta, per_modulus, strips, vectors, plane, result):
     t = (at - y[k]) / (y[k + 1] - y[k])
     gap = (1.0 - t) * g[k] + t * g[k + 1] - result.touch
     locus = (1.0 - t) * sep.x_c[k] + t * sep.x_c[k + 1]
-    return (delta - gap - per_modulus * _displacement(at, locus, -1, n, strips, vectors, plane)) / delta
+    return (delta - gap - per_modulus * _displacement(at, locus, n, strips, vectors, plane)) / delta
 
 
 @kernel
@@ -128,10 +131,11 @@ def gap_error(sep, n, case, workspace, result):
         t = (at - y[k]) / h
         gap = cubic.value(h, g[k], m0, g[k + 1], m1, t) - result.touch
         offset, curvature = strips[Strip.OFFSET, i], (1.0 - t) * sep.A[k] + t * sep.A[k + 1]
+        fill_sides(at, n, strips, vectors)
         for side in range(2 if skewed else 1):
             aside = (2 * side - 1) * ASIDE * strips[Strip.A, i] if skewed else 0.0
             away, locus = offset + aside, strips[Strip.XC, i] + aside
-            used = per_modulus * _displacement(at, locus, i, n, strips, vectors, plane)
+            used = per_modulus * displacement_at(locus, i, n, strips, vectors, plane)
             left = abs(gap + curvature * away * away + used - delta) / delta
             largest = max(largest, min(left, 1.0))
     for patch in range(int(strips[Strip.PATCH, n - 1]) + 1):
@@ -142,6 +146,6 @@ def gap_error(sep, n, case, workspace, result):
             largest = max(largest, min(left, 1.0))
     missed = _deepest_outside(sep, n, delta, strips, result)
     if missed >= 0:
-        used = per_modulus * _displacement(y[missed], sep.x_c[missed], -1, n, strips, vectors, plane)
+        used = per_modulus * _displacement(y[missed], sep.x_c[missed], n, strips, vectors, plane)
         largest = max(largest, min((delta - (g[missed] - result.touch) - used) / delta, 1.0))
     return largest

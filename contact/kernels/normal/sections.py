@@ -13,7 +13,7 @@ from contact.kernels.normal.elimination import eliminate
 from contact.kernels.normal.gap_error import displacement_at, fill_sides, summarise
 from contact.kernels.normal.peak import FEWEST, continues, peak_between_strips, peak_pressure, rise
 from contact.kernels.normal.turned import line_of_middles
-from contact.kernels.rows import Pair, Strip, Vector
+from contact.kernels.rows import Strip, Vector
 
 #: Half length of the strip with the largest pressure over half the width of its patch, from which on sections count, and from
 #: which on they count in full. The pressures of shorter strips are semi-ellipses.
@@ -53,16 +53,13 @@ def _fill_gaps(i, low, high, n, problem):
     At the middle of each strip its gap is closed. The sections are rows of the vectors from STEPS on.
     """
     workspace, strips, vectors = problem.workspace, problem.workspace.strips, problem.workspace.space.vectors
-    plane, pairs = workspace.tables.plane, vectors[Vector.PAIRS : Vector.PAIRS + len(Pair)]
-    lows, highs = vectors[Vector.REACH], vectors[Vector.SPREAD]
+    plane = workspace.tables.plane
     summarise(n, strips, vectors)
     for j in range(low, high):
         row, middle, at_middle = int(vectors[Vector.INDEX, j]), strips[Strip.XC, j], 0.0
-        fill_sides(strips[Strip.Y, j], n, strips, vectors, lows, highs)
+        fill_sides(strips[Strip.Y, j], n, strips, vectors)
         for k in range(4):
             x = middle if k == 0 else strips[Strip.XC, i] + (k - 2) * _ASIDE * strips[Strip.A, i]
-            for m in range(n):
-                pairs[Pair.LOW, m], pairs[Pair.HIGH, m] = lows[m], highs[m]
             u = problem.unit * displacement_at(x, j, n, strips, vectors, plane)
             if k == 0:
                 at_middle = u

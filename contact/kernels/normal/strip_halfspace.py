@@ -49,6 +49,8 @@ from contact.kernels.rows import Sample, Strip, Vector
 MAX_ITERATIONS = 60
 #: An iterate that did not converge is returned if it changes by less than this; otherwise ANALYN's solution is.
 USABLE = 0.02
+#: Tolerance of a solution that is only a start for the next one.
+BRIEF = 1e-2
 #: Largest mean slope of the line of the strips' middles at which strips count as in line.
 SLIGHT = 0.045
 #: Pressure of a strip over that on the line through its neighbours', up to which a narrow one is believed, and the width over
@@ -175,8 +177,11 @@ def _level_lone(n, n_panels, vectors):
 
 
 @kernel
-def _report(problem, delta, n_panels):
-    """Write the strips and their resultants, where ANALYN's still are. Return the number of strips."""
+def _report(problem, carries, delta, n_panels):
+    """Write the strips and their resultants, where ANALYN's still are. Return the number of strips.
+
+    If `carries`, they carry the load of the problem exactly; otherwise what the approach leaves them.
+    """
     workspace, strips, result, sep = problem.workspace, problem.workspace.strips, problem.result, problem.sep
     if problem.by_load and delta > 0.0:  # local aspect ratios at this approach, which is not ANALYN's
         prepare(sep.y, sep.g, sep.A, sep.y.size, problem.touch, delta, workspace.space.grid)
@@ -186,10 +191,10 @@ def _report(problem, delta, n_panels):
     N = 0.0
     for i in range(count):
         N += 0.5 * math.pi * strips[Strip.P0, i] * strips[Strip.A, i] * strips[Strip.DY, i]
-    if problem.by_load and N > 0.0:  # end strips under tension carry nothing, so 1e-5 of the load goes to the others
+    if carries and N > 0.0:  # end strips under tension carry nothing, so 1e-5 of the load goes to the others
         for i in range(count):
             strips[Strip.P0, i] *= problem.amount / N
-    N = problem.amount if problem.by_load else N
+    N = problem.amount if carries else N
     # d(ln N)/d(ln delta) of ANALYN, exact in Hertz contact; semi-ellipses cannot represent the edge pressure of a punch
     result.stiffness *= (result.approach - problem.touch) / result.N * N / delta if delta > 0.0 else 0.0
     result.N = N
@@ -232,8 +237,8 @@ def _iterate(problem, state, most):
 
 
 @kernel
-def _solve(sep, case, load, workspace, result):
-    """Solve the normal problem in the given orientation, for a `load` > 0 [N] instead of what the case says."""
+def _solve(sep, case, load, brief, workspace, result):
+    """Solve the normal problem in the given orientation. Load and `brief` are those of `strips_under`."""
     space, strips, memory = workspace.space, workspace.strips, workspace.space.memory
     n_strips = analyn(sep, case, workspace.rule.across, space.grid, strips, result)
     if n_strips == 0:
@@ -244,6 +249,7 @@ def _solve(sep, case, load, workspace, result):
     by_load = load > 0.0 or case.load_kind != LoadKind.APPROACH
     amount = load if load > 0.0 else case.amount if by_load else case.amount - result.touch
     tolerance = case.tolerance if case.tolerance > 0.0 else TOLERANCE
+    tolerance = max(tolerance, BRIEF) if brief else tolerance
     skew, unit = _skew(n_strips, strips), 1.0 / (math.pi * modulus)
     start_low, start_high = result.edges[0], result.edges[2 * int(strips[Strip.PATCH, n_strips - 1]) + 1]
     panels, n_panels = recall(sep, n, start_low, start_high, workspace)
@@ -272,9 +278,9 @@ def _solve(sep, case, load, workspace, result):
     early = not left and state.number - state.begun < FREEZE
     remember(n_panels if early else 0, n, start_low, start_high, skew > 0.0, workspace)
     lone = skew > 0.0 and _level_lone(n, n_panels, space.vectors)
-    count = _report(problem, state.approach, n_panels)
+    count = _report(problem, case.load_kind != LoadKind.APPROACH, state.approach, n_panels)
     # parts of strips would make up for the pressure that was taken away
-    result.pmax = 0.0 if lone or levelled or load > 0.0 else largest_pressure(count, problem)
+    result.pmax = 0.0 if lone or levelled or brief else largest_pressure(count, problem)
     if not rests and result.status != Status.OUT_OF_RANGE:
         result.status = Status.NOT_CONVERGED
     elif result.status == Status.OUT_OF_RANGE:
@@ -286,11 +292,15 @@ def _solve(sep, case, load, workspace, result):
 
 
 @kernel
-def strips_under(load, sep, case, workspace, result):
-    """As `strip_halfspace`, for a `load` > 0 [N] with ANALYN's start at the approach of the case; no peak is read then."""
+def strips_under(load, brief, sep, case, workspace, result):
+    """As `strip_halfspace`, for a `load` > 0 [N] with ANALYN's start at the approach of the case.
+
+    Its strips carry more by what end strips under tension would take off, as they do at this approach. A `brief` solution ends
+    at `BRIEF`, and no peak is read.
+    """
     image, space = is_image(sep.g), workspace.space
     face(image, space.memory)
-    n = _solve(turn_samples(sep, image, space.turned), case, load, workspace, result)
+    n = _solve(turn_samples(sep, image, space.turned), case, load, brief, workspace, result)
     if image:
         turn_back(n, workspace.strips, result.edges)
     return n
@@ -304,4 +314,4 @@ def strip_halfspace(sep, case, workspace, result):
     ends came to rest. With the status NOT_CONVERGED the result is the best iterate if its changes were small, and
     ANALYN's solution otherwise. Mirror images have mirrored answers (`orientation`).
     """
-    return strips_under(0.0, sep, case, workspace, result)
+    return strips_under(0.0, False, sep, case, workspace, result)

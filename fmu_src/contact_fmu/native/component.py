@@ -13,6 +13,18 @@ from ..resources import MOST_POINTS
 from ..rows import identifier
 from ..variables import Table
 
+#: Function of a kind of models (`kinds`) → types of its result and of its arguments without `given`: a number of 64 bits, or a
+#: pointer to float64.
+SIGNATURES: dict[str, tuple[str, tuple[str, ...]]] = {
+    "memory": ("i64", ("ptr",)),
+    "size": ("i64", ("ptr",)),
+    "prepare": ("i64", ("ptr", "ptr")),
+    "outputs": ("i64", ("ptr", "ptr", "f64")),
+    "lazy": ("i64", ("ptr", "ptr")),
+    "jacobian": ("i64", ("ptr", "ptr")),
+    "difference": ("f64", ("ptr", "i64")),
+    "field": ("i64", ("ptr", "ptr", "i64")),
+}
 #: Sizes of a model at the beginning of its numbers, before the value references of its rows.
 SIZES = ("n_values", "points", "n_bodies", "n_links", "n_elements", "n_axles", "n_table")
 

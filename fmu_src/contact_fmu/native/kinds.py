@@ -27,22 +27,11 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
-from .component import Given
+from .component import SIGNATURES, Given
 
 if TYPE_CHECKING:
     from contact.compile.library import Added
 
-#: Function → types of its result and of its arguments without `given`: a number of 64 bits, or a pointer to float64.
-SIGNATURES: dict[str, tuple[str, tuple[str, ...]]] = {
-    "memory": ("i64", ("ptr",)),
-    "size": ("i64", ("ptr",)),
-    "prepare": ("i64", ("ptr", "ptr")),
-    "outputs": ("i64", ("ptr", "ptr", "f64")),
-    "lazy": ("i64", ("ptr", "ptr")),
-    "jacobian": ("i64", ("ptr", "ptr")),
-    "difference": ("f64", ("ptr", "i64")),
-    "field": ("i64", ("ptr", "ptr", "i64")),
-}
 #: Kinds of models.
 KINDS = ("contact", "pair", "surfaces", "vehicle", "open_vehicle")
 #: Those that FMUs for hosts with Python have too.
