@@ -7,7 +7,7 @@ from dataclasses import replace
 from functools import cache
 from typing import Any, Unpack
 
-from contact.inputs.options import RADIUS
+from contact.inputs.options import APPROACH, LOAD, RADIUS
 from contact.inputs.separation import LARGEST_TILT
 from contact.kernels.records import MAX_PATCHES
 from ..rows import Attributes, output, parameter, signal
@@ -108,11 +108,12 @@ def _inputs(points: int) -> Iterable[Variable]:
         about = f"{name.title()} creepage, wheel minus rail"
         yield signal(f"creepage.{name}", about, nominal=nominal, member=f"case.{member}")
     about = f"Normal force, used when load.kind = NormalForce; {solver.NO_LOAD}"
-    by_load: dict[str, Any] = {"minimum": solver.LEAST_LOAD, "nominal": 1e5, "used": {"load.kind": ("NormalForce",)}}
-    yield signal("load.normal_force", about, unit="N", start=80e3, **by_load)
+    by_load: dict[str, Any] = {"nominal": 1e5, "used": {"load.kind": ("NormalForce",)}}
+    limits: dict[str, Any] = {"minimum": solver.LEAST_LOAD, "maximum": LOAD.most}
+    yield signal("load.normal_force", about, unit="N", start=80e3, **limits, **by_load)
     about = "Rigid approach from first touch, used when load.kind = Approach; negative: apart"
-    used = {"load.kind": ("Approach",)}
-    yield signal("load.approach", about, unit="m", start=8e-5, nominal=1e-4, used=used)
+    limits = {"minimum": APPROACH.least, "maximum": APPROACH.most, "used": {"load.kind": ("Approach",)}}
+    yield signal("load.approach", about, unit="m", start=8e-5, nominal=1e-4, **limits)
     about = "Rolling speed; without speed-dependent friction it scales only rates; at standstill these are 0"
     yield signal("speed", about, nominal=10.0, member="case.speed")
     yield signal("friction.coefficient", "Coefficient of friction", member="case.mu")

@@ -13,6 +13,7 @@ from contact.inputs.options import (
     FLANGE_BACK,
     GAUGE,
     GAUGE_POINT,
+    LOAD,
     MOTION_INPUTS,
     RADIUS,
     REFERENCE_SPEED,
@@ -158,7 +159,8 @@ def inputs() -> Iterable[Variable]:
         + solver.NO_LOAD
     )
     by_load: dict[str, Any] = {"nominal": 1e5, "used": {"load.kind": ("NormalForce", "VerticalForce")}}
-    yield signal("load.normal_force", about, unit="N", start=80e3, minimum=solver.LEAST_LOAD, **by_load)
+    limits: dict[str, Any] = {"minimum": solver.LEAST_LOAD, "maximum": LOAD.most}
+    yield signal("load.normal_force", about, unit="N", start=80e3, **limits, **by_load)
     yield signal("friction.coefficient", "Coefficient of friction", member="case.mu")
     for name in OFFSET:
         yield signal(name, member=f"wheel_{name}")
