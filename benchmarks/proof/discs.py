@@ -6,17 +6,18 @@ from pathlib import Path
 
 import matplotlib.pyplot as plt
 
+from benchmarks.tables import table
 from reference import twin_disc
 
 
 def section() -> tuple[str, str]:
     """Return the agreement for the summary, and the text."""
-    rows = twin_disc.rows()
-    off = [100.0 * (ours / published - 1.0) for _, _, published, ours in rows]
-    lines = "\n".join(
-        f"| {slip:g} | {heat:g} | {published:g} | {ours:.3g} | {o:+.0f} |"
-        for (slip, heat, published, ours), o in zip(rows, off, strict=True)
-    )
+    found = twin_disc.rows()
+    off = [100.0 * (ours / published - 1.0) for _, _, published, ours in found]
+    rows = [
+        [f"{slip:g}", f"{heat:g}", f"{published:g}", f"{ours:.3g}", f"{o:+.0f}"]
+        for (slip, heat, published, ours), o in zip(found, off, strict=True)
+    ]
     text = f"""## Twin disc
 
 Heat and temperature are published (read by an earlier session, issue 35); the sizes are recalled:
@@ -25,10 +26,7 @@ discs of {2e3 * twin_disc.RADIUS:g} mm diameter, {1e3 * twin_disc.WIDTH:g} mm wi
 Ours spreads the published heat like Hertz's pressure over the line contact, in the steel of
 [the constants](../understand/constants.md). It tests neither friction nor creep forces.
 
-| slip [%] | heat [W] | published [K] | ours [K] | difference [%] |
-| ---: | ---: | ---: | ---: | ---: |
-{lines}
-
+{table(["slip [%]", "heat [W]", "published [K]", "ours [K]", "difference [%]"], rows)}
 ![Flash temperature over slip](proof/twin_disc.png)
 
 Verdict: 10 to 20 % too high. The thermal constants and the speed of the source are not known; its ratio of temperature

@@ -6,31 +6,26 @@ from pathlib import Path
 
 import matplotlib.pyplot as plt
 
+from benchmarks.tables import table
 from contact.inputs.material import Thermal
 from reference import traction
 
 
 def section() -> tuple[str, str]:
     """Return the agreement for the summary, and the text."""
-    head = " | ".join(f"{slip:g} %" for slip in traction.SLIPS)
-    rule = "| --- |" + " ---: |" * len(traction.SLIPS)
-    forces, largest = [f"| Fx/N at slip | {head} |", rule], {"ours": 0.0, "fitted": 0.0}
+    slips = [f"{slip:g} %" for slip in traction.SLIPS]
+    forces, largest = [], {"ours": 0.0, "fitted": 0.0}
     ours, fitted = traction.forces(Thermal()), traction.forces(traction.FITTED)
     for law, published in traction.FORCES.items():
         what = f"fall of {law[0]:g} over {law[1]:g} K" if law[0] else "constant friction"
         for whose, numbers in (("CONTACT", published), ("ours", ours[law]), ("ours, heat of CONTACT", fitted[law])):
-            forces.append(f"| {what}, {whose} | " + " | ".join(f"{number:.4f}" for number in numbers) + " |")
+            forces.append([f"{what}, {whose}", *(f"{number:.4f}" for number in numbers)])
         for key, numbers in (("ours", ours[law]), ("fitted", fitted[law])):
             off = max(abs(a / b - 1.0) for a, b in zip(numbers, published, strict=True))
             largest[key] = max(largest[key], 100.0 * off)
-    rises = [f"| largest rise with constant friction, K | {head} |", rule]
-    counted = traction.counted_twice()
-    for whose, numbers in (
-        ("CONTACT", traction.RISES),
-        ("ours", traction.rises(Thermal())),
-        ("ours, CONTACT's elements and count", counted),
-    ):
-        rises.append(f"| {whose} | " + " | ".join(f"{number:.4g}" for number in numbers) + " |")
+    found = {"CONTACT": traction.RISES, "ours": traction.rises(Thermal())}
+    found["ours, CONTACT's elements and count"] = traction.counted_twice()
+    rises = [[whose, *(f"{number:.4g}" for number in numbers)] for whose, numbers in found.items()]
     text = f"""## Locomotive traction
 
 A wheel under {1e-3 * traction.LOAD:g} kN with an elliptic patch, a/b = .5, at {traction.SPEED:g} m/s; friction
@@ -38,13 +33,11 @@ A wheel under {1e-3 * traction.LOAD:g} kN with an elliptic patch, a/b = .5, at {
 `testbank/examples_temp/euro_tractcurv.inp` of github eve70a/CONTACT (commit 424e4e6), the steel of
 [the constants](../understand/constants.md); CONTACT's answers those of the same test bank (issue 35).
 
-{chr(10).join(rises)}
-
+{table(["largest rise with constant friction, K", *slips], rises)}
 CONTACT counts the heat of the element itself twice (`src/m_temperature.f90`: its share is 2 √(dx/2) where the others have
 differences of square roots), 11 % on its 40 elements. Our half space with the same count gives all its digits.
 
-{chr(10).join(forces)}
-
+{table(["Fx/N at slip", *slips], forces)}
 "Heat of CONTACT" is a heat capacity smaller by 1.252, with which the rise at 25 % is CONTACT's.
 
 ![Traction over slip](proof/locomotive.png)
