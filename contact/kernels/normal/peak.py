@@ -205,7 +205,7 @@ def _displacement_by_parts(at, parent, unit, vectors, centre):
     )  # fmt: skip
     total = 0.0
     for c in range(_NINE):
-        if abs(c - parent) > 1:
+        if c < parent - 1 or c > parent + 1:
             away = abs(parts[c] - at)
             near, far = math.log(away - halves[c]) - logs_a[c], math.log(away + halves[c]) - logs_a[c]
             total += pressures[c] * math.exp(logs_a[c]) * (at_centre(centre, far) - at_centre(centre, near))
