@@ -130,7 +130,7 @@ class Transient(OwnsArrays):
         if grid is None:
             raise ContactError(f"approach = {approach}: the bodies do not touch; a grid needs contact or a Gap")
         self._gap: Separation | Gap = separation
-        self._largest = math.inf if load is None else load
+        self._largest = LOAD.most if load is None or isinstance(separation, Gap) else load
         self._grid = grid
         self._stepper = self._prepared()
         self._state = self._stepper.fresh()
@@ -329,8 +329,7 @@ class Transient(OwnsArrays):
         if load is not None and approach is not None:
             raise ContactError(f"of load and approach only one may be given; load = {load}, approach = {approach}")
         if load is not None:
-            most = math.inf if isinstance(self._gap, Gap) else self._largest
-            self._amount = {"load": require_number("load", load, 0.0, most)}
+            self._amount = {"load": require_number("load", load, 0.0, self._largest)}
         elif approach is not None:
             self._amount = {"approach": APPROACH.require("approach", approach)}
         if gap is None:
