@@ -10,7 +10,7 @@ from numba import carray
 
 from contact.compile.library import Added
 from contact.kernels.block import ahead
-from contact.kernels.pair import solve_patch
+from contact.kernels.pair_patches import solve_patch
 from contact.kernels.rows import DamageField, Field, Strip
 from contact_fmu.native import kinds, wheel_rail_pair
 from contact_fmu.tables.wheel_rail_pair import ACCUMULATED, table

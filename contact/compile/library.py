@@ -49,7 +49,7 @@ _OFFERED = (
     "contact.kernels.damage.assess.damage_kernel",
     "contact.kernels.pair_conditions.derive_pair",
     *(f"contact.kernels.flexible.{name}" for name in ("solve_flexible", "_solve_either_way")),
-    *(f"contact.kernels.pair.{name}" for name in ("_press_patch", "_roll_patch")),
+    *(f"contact.kernels.pair_patches.{name}" for name in ("press_patch", "_roll_patch")),
 )
 #: The C sources of the C interface.
 C_INTERFACE = sorted((get_include().parent / "c").glob("*.c"))

@@ -2,33 +2,25 @@
 
 import math
 
-from contact.core import arranging, kernel
-from contact.kernels.arrays import Samples, Space, Workspace
-from contact.kernels.block import part
-from contact.kernels.damage.assess import bears_nothing, clear_damage, damage_kernel, damage_of_patch
-from contact.kernels.enumerations import Height, LoadKind, NoAnswer, NormalFamily, Status
+from contact.core import kernel
+from contact.kernels.enumerations import Height, NoAnswer, NormalFamily, Status
 from contact.kernels.geometry.prepare import move
 from contact.kernels.geometry.search import size_of
 from contact.kernels.geometry.settle import DEEPEST, begin, carried, describe, first_depth, settle
 from contact.kernels.ledger import enter
-from contact.kernels.normal.press import press
 from contact.kernels.normal.strip_halfspace import strips_under
-from contact.kernels.pipeline import complete_pressure, roll_case
-from contact.kernels.records import LARGEST_CREEPAGE, MAX_PATCHES
-from contact.kernels.result import clear
-from contact.kernels.resultants import (
-    add_results,
-    add_wrench,
-    clear_contact,
-    clear_total,
-    compare_forces,
-    mirror_answer,
-    pressure_wrench,
-    report,
+from contact.kernels.pair_patches import (
+    keeps_ledger,
+    prepare_patches,
+    press_patch,
+    set_case,
+    solve_patches,
+    workspace_of,
 )
+from contact.kernels.records import MAX_PATCHES
+from contact.kernels.result import clear
 from contact.kernels.root import advance
 from contact.kernels.root import begin as begin_root
-from contact.kernels.rows import Sep
 
 #: Search of the height for a load or a vertical force: most trials, shortest bracket [m], target and accepted residual over it.
 _MOST, _SHORTEST, _TOLERANCE, _ACCEPTABLE = 20, 1e-14, 1e-9, 1e-3
@@ -47,163 +39,6 @@ _MOST_LAID, _LAID = 5, 3e-4
 #: Target and accepted residual on surfaces that change along the way, the second with friction. On the edge of a fresh flat the
 #: force is not smooth in z.
 _ROUGHER, _ACCEPTABLE_ROUGH = 1e-7, 1e-2
-
-
-@kernel
-def _bounded(creepage):
-    """Return the creepage, limited to its range. A wheelset almost at rest leaves the range, in full slip."""
-    return min(max(creepage, -LARGEST_CREEPAGE), LARGEST_CREEPAGE)
-
-
-@kernel
-def set_case(patch, motion, template, case):
-    """Fill the case of one patch, at its approach, from the `template` of the pair."""
-    case.load_kind, case.amount = LoadKind.APPROACH, patch.approach
-    case.vx, case.vy, case.phi = _bounded(patch.vx), _bounded(patch.vy), _bounded(patch.phi)
-    case.rolling = math.cos(patch.angle) / patch.radius
-    # from the rail's profile into the plane of the patch
-    per_cosine = 1.0 / math.cos(patch.angle - motion.rail_roll)
-    case.border = (template.border - patch.rail_y) * per_cosine
-    case.border_width = template.border_width * per_cosine
-
-
-@kernel
-def space_of_patch(space, memory, tangent):
-    """Return the scratch arrays with memory and tangent of one patch."""
-    return Space(
-        space.grid,
-        space.turned,
-        space.vectors,
-        space.logs,
-        space.matrix,
-        space.lu,
-        space.iteration,
-        space.iterates,
-        memory,
-        space.lanes,
-        space.trace,
-        space.case,
-        tangent,
-    )
-
-
-@kernel
-def workspace_of(k, arrays):
-    """Return separation and workspace of patch k of the last search. Strips and fields are those of `arrays.workspace`."""
-    workspace, memory, sep = arrays.workspace, arrays.memory, arrays.search.separations[k]
-    piece = (memory.size - 3) // MAX_PATCHES
-    space = space_of_patch(workspace.space, memory[1 + k * piece : 1 + (k + 1) * piece], workspace.space.tangent)
-    samples = Samples(sep[Sep.Y], sep[Sep.G], sep[Sep.A], sep[Sep.XC], sep[Sep.TILT])
-    return samples, Workspace(workspace.rule, workspace.tables, space, workspace.strips, workspace.fields)
-
-
-@arranging
-def _one_row(fields):
-    """Return the fields with room for a single strip, which asks methods for forces only."""
-    return part(fields, 0, fields.shape[0], 1, fields.shape[2])
-
-
-@kernel
-def _press_patch(k, arrays):
-    """Solve the normal problem of patch k of the last search at its approach. Return the number of strips.
-
-    Strips are those of `arrays.workspace`, until the next patch is solved. `arrays.patch_case` holds the case of the pair.
-    """
-    set_case(arrays.search.patches[k], arrays.search.motion[0], arrays.case[0], arrays.patch_case[0])
-    samples, of_patch = workspace_of(k, arrays)
-    return press(samples, arrays.patch_case[0], of_patch, arrays.result[0])
-
-
-@kernel
-def _roll_patch(k, n_strips, brief, arrays):
-    """Solve the tangential problem of patch k, pressed last, with its damage; `brief` as in `_solve`."""
-    search, workspace, result, parameters = (
-        arrays.search,
-        arrays.workspace,
-        arrays.result[0],
-        arrays.damage_parameters[0],
-    )
-    case = arrays.patch_case[0]
-    if n_strips > 0:
-        samples, of_patch = workspace_of(k, arrays)
-        if brief and case.conformal == 0 and not case.pressure_limit > 0.0:
-            of_patch = Workspace(
-                of_patch.rule, of_patch.tables, of_patch.space, of_patch.strips, _one_row(of_patch.fields)
-            )
-        complete_pressure(samples, n_strips, brief, case, of_patch, result)
-        roll_case(samples, n_strips, case, of_patch, result)
-    parameters.speed, parameters.wheel_radius = search.motion[0].vx, search.patches[k].radius
-    if brief:
-        clear_damage(arrays.damage[0])
-        if not bears_nothing(n_strips, result):
-            damage_of_patch(case, result, parameters, arrays.damage[0])
-        return
-    damage_kernel(
-        workspace.strips, n_strips, workspace.fields, case, result, parameters, arrays.damage_fields, arrays.damage[0]
-    )
-
-
-@kernel
-def solve_patch(k, arrays):
-    """Solve patch k of the last search at its approach, as `_press_patch`, and with its fields. Return the number of strips."""
-    n_strips = _press_patch(k, arrays)
-    _roll_patch(k, n_strips, False, arrays)
-    return n_strips
-
-
-@kernel
-def _prepared(n, arrays):
-    """Prepare to solve the `n` patches of a search, if there are any. Return n."""
-    memory = arrays.memory
-    if n >= 0:
-        if memory[0] != n:  # a patch came or went: none starts from another one
-            memory[:] = 0.0
-            memory[0] = n
-        arrays.patch_case[0] = arrays.case[0]
-    return n
-
-
-@kernel
-def _enters(arrays):
-    """Return whether there is a ledger, and a distance over which its damage counts."""
-    return arrays.ledger.bins.shape[2] > 0 and arrays.ledger.settings[0].distance > 0.0
-
-
-@kernel
-def _solve(n, pressed, brief, enters, arrays):
-    """Solve the `n` patches of the last search and add up. Return d(ln N)/dz of their normal forces, vertically [1/m].
-
-    `pressed` is the number of strips of a single patch whose normal problem is solved already, or below 0. The ledger is
-    filled if `enters` says so. A `brief` solution has forces, T-gamma and what follows from it, but neither damage of elements
-    nor `gap_error`.
-    """
-    workspace, total, result = arrays.workspace, arrays.total[0], arrays.result[0]
-    damage, case, motion = arrays.damage[0], arrays.patch_case[0], arrays.search.motion[0]
-    for k in range(MAX_PATCHES):
-        clear_contact(arrays.contacts[k])
-    clear_total(total)
-    normal, stiffness = 0.0, 0.0
-    for k in range(n):
-        patch, contact = arrays.search.patches[k], arrays.contacts[k]
-        n_strips = pressed if pressed >= 0 else _press_patch(k, arrays)
-        _roll_patch(k, n_strips, brief, arrays)
-        total.bend, total.beyond = max(total.bend, result.bend), max(total.beyond, result.beyond)
-        pressure = pressure_wrench(workspace.strips, n_strips)
-        report(patch, case, result, pressure, contact)
-        if n_strips > 0:
-            patch.load = result.N
-            cosine = math.cos(patch.angle) * math.cos(patch.pitch)
-            normal += patch.share * result.N * cosine
-            stiffness += patch.share * result.stiffness * cosine * cosine
-            add_wrench(contact, pressure, patch.share, motion, total)
-            add_results(result, damage, patch.share, total)
-            total.gap_error = max(total.gap_error, contact.gap_error)
-            if enters and _enters(arrays):
-                enter(patch, n_strips, damage, arrays)
-    total.z, total.n_patches = motion.z, n
-    mirror_answer(motion.mirror, n, arrays.contacts, total)
-    compare_forces(motion.mirror, total)
-    return stiffness / normal if normal > 0.0 else 0.0
 
 
 @kernel
@@ -240,7 +75,7 @@ def _start_of(n, quick, arrays):
     """Prepare to solve the `n` patches of a search, which start from the last trial if it was `quick`. Return n."""
     if not quick:
         arrays.memory[:] = 0.0
-    return _prepared(n, arrays)
+    return prepare_patches(n, arrays)
 
 
 @kernel
@@ -271,7 +106,7 @@ def _press_for_load(mode, force, touch, nodes, root, arrays):
         patch.point_z += rise  # the arms of its forces are those of its creepages
         quick, reached = result.iterations <= _QUICK, result.N * cosine
         if mode == Height.VERTICAL:
-            _solve(1, n_strips, rough, False, arrays)
+            solve_patches(1, n_strips, rough, False, arrays)
             reached = -arrays.total[0].Fz
             if not reached > 0.0:
                 return 0
@@ -313,9 +148,9 @@ def _solve_under(mode, force, arrays):
     """
     search, total, motion, root = arrays.search, arrays.total[0], arrays.search.motion[0], arrays.roots[2]
     if force <= 0.0:
-        n = _prepared(settle(mode, force, search), arrays)
+        n = prepare_patches(settle(mode, force, search), arrays)
         if n >= 0:
-            _solve(n, -1, False, False, arrays)
+            solve_patches(n, -1, False, False, arrays)
         return n
     above, touch, nodes = _begin_under(force, search, root)
     if not above:
@@ -326,12 +161,12 @@ def _solve_under(mode, force, arrays):
     acceptable = _ACCEPTABLE_ROUGH if changing and mode == Height.VERTICAL else _ACCEPTABLE
     best, z_best, mark, missing, idle = math.inf, touch, math.inf, math.inf, 0
     starts, quick = iterated and not changing, False
-    enters, slow = _enters(arrays), False
+    enters, slow = keeps_ledger(arrays), False
     if starts and not 0.0 < arrays.case[0].pressure_limit < math.inf:
         pressed = _press_for_load(mode, force, touch, nodes, root, arrays)
         if pressed > 0:
             if mode == Height.LOAD:
-                _solve(1, pressed, False, enters, arrays)
+                solve_patches(1, pressed, False, enters, arrays)
             elif enters:
                 enter(search.patches[0], pressed, arrays.damage[0], arrays)
             return 1
@@ -342,7 +177,7 @@ def _solve_under(mode, force, arrays):
         if changing:  # grids that are laid for another height would change the force
             begin(search, z)
         n = _start_of(describe(search, z, nodes), quick, arrays)
-        pressed = _press_patch(0, arrays) if n == 1 else -1
+        pressed = press_patch(0, arrays) if n == 1 else -1
         rolls = mode == Height.VERTICAL or n != 1
         brief = rolls and missing > _ROUGH  # this trial will hardly be the last one
         if not rolls:
@@ -350,7 +185,7 @@ def _solve_under(mode, force, arrays):
             cosine = math.cos(patch.angle) * math.cos(patch.pitch)
             reached, growth = (result.N * cosine, result.stiffness / result.N * cosine) if pressed > 0 else (0.0, 0.0)
         else:
-            growth = _solve(n, pressed, brief, False, arrays)
+            growth = solve_patches(n, pressed, brief, False, arrays)
             reached = _carried(mode, n, arrays)
         if root.evaluations == 0 and reached > 0.0 and growth > 0.0:
             root.slope = 2.0 / 3.0 * reached ** (2.0 / 3.0) * growth
@@ -373,9 +208,9 @@ def _solve_under(mode, force, arrays):
         if changing:
             begin(search, z_best)
         n = _start_of(describe(search, z_best, nodes), quick, arrays)
-        _solve(n, -1, False, enters, arrays)
+        solve_patches(n, -1, False, enters, arrays)
     elif not rolls:
-        _solve(n, pressed, False, enters, arrays)
+        solve_patches(n, pressed, False, enters, arrays)
     elif enters and pressed > 0:
         enter(search.patches[0], pressed, arrays.damage[0], arrays)
     if best > acceptable:  # the force jumps with the height: on surfaces, and by ANALYN where a lobe appears
@@ -387,9 +222,9 @@ def _solve_under(mode, force, arrays):
 def solve_briefly(given, arrays):
     """As `solve_pair` at a given height, for forces, T-gamma and pressure alone, and for damage where it is entered."""
     move(given, arrays.search.motion[0])
-    n = _prepared(settle(Height.GIVEN.value, 0.0, arrays.search), arrays)
+    n = prepare_patches(settle(Height.GIVEN.value, 0.0, arrays.search), arrays)
     if n >= 0:
-        _solve(n, -1, not _enters(arrays), True, arrays)
+        solve_patches(n, -1, not keeps_ledger(arrays), True, arrays)
     return n
 
 
@@ -406,7 +241,7 @@ def solve_pair(mode, amount, given, arrays):
     move(given, arrays.search.motion[0])
     if mode == Height.VERTICAL or mode == Height.LOAD:
         return _solve_under(mode, amount, arrays)
-    n = _prepared(settle(mode, amount, arrays.search), arrays)
+    n = prepare_patches(settle(mode, amount, arrays.search), arrays)
     if n >= 0:
-        _solve(n, -1, False, True, arrays)
+        solve_patches(n, -1, False, True, arrays)
     return n

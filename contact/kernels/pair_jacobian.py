@@ -33,7 +33,7 @@ from contact.kernels.jacobian import (
 from contact.kernels.jacobian import MU as FRICTION
 from contact.kernels.memory import CREEPS, PAIR_ROWS
 from contact.kernels.normal.tangent import follow, loaded_strips
-from contact.kernels.pair import set_case, space_of_patch
+from contact.kernels.pair_patches import set_case, space_of_patch
 from contact.kernels.pipeline import press_case, roll_case
 from contact.kernels.records import MAX_PATCHES, SLOWEST
 from contact.kernels.result import clear, clear_forces

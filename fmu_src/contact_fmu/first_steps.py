@@ -84,7 +84,7 @@ FIRST: dict[str, First] = {
         (
             Example(
                 {},
-                {"wheel.Q": 8.008e4, "wheel.Y": 494.7, "force.x": -203.9, "wheelset.z": 2.466e-4},
+                {"wheel.Q": 8.008e4, "wheel.Y": 495.7, "force.x": -208.0, "wheelset.z": 2.466e-4},
                 "the start values",
             ),
             Example(
@@ -102,7 +102,7 @@ FIRST: dict[str, First] = {
         (
             Example(
                 {},
-                {"wheel.Q": 8.008e4, "wheel.Y": 494.4, "force.x": -205.8, "wheelset.z": 2.466e-4},
+                {"wheel.Q": 8.008e4, "wheel.Y": 495.4, "force.x": -210.0, "wheelset.z": 2.466e-4},
                 "the start values",
             ),
             Example({"pose.y": 5e-3}, {"wheel.Q": 8.085e4, "wheel.Y": 5533.0, "force.x": 2.101e4}, "5 mm to the right"),

@@ -26,6 +26,8 @@ KINDS = {"cs": "CoSimulation", "me": "ModelExchange"}
 _RELATIVE, _TOTAL = 1e-3, 2e-2
 #: The same of outputs that are of one element, which sticks or slips: another start of the iteration may decide that (.004).
 _OF_ELEMENTS, _ELEMENT = ("_max", "slip.ratio"), 1e-2
+#: The same of slopes, which change steeply where a stick zone ends: the last digit of an input may decide on which side (.002).
+_OF_SLOPES, _SLOPE = "creep_stiffness", 1e-2
 _README = """# Validation set of {name}
 
 FMI {version}, {kind}. File of the FMU: {file}
@@ -200,7 +202,10 @@ def _csv(path: Path, time: Array, rows: dict[str, Array], separator: str = ",") 
 
 def tolerance(name: str, values: Array) -> float:
     """Return the absolute tolerance of an output with these values. The tolerance of a number that is always 0 is 1e-9."""
-    share = _TOTAL if "total." in name else _ELEMENT if name.endswith(_OF_ELEMENTS) else _RELATIVE
+    if name.startswith(_OF_SLOPES):
+        share = _SLOPE
+    else:
+        share = _TOTAL if "total." in name else _ELEMENT if name.endswith(_OF_ELEMENTS) else _RELATIVE
     return float(max(share * np.max(np.abs(values)), 1e-9))
 
 

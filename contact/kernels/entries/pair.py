@@ -17,8 +17,8 @@ from contact.kernels.damage.deposit import arc_length
 from contact.kernels.entries.layout import Entries, copy, copy_rows, fill, forget_forged, lay_out, size_of
 from contact.kernels.flexible import solve_flexible
 from contact.kernels.geometry.prepare import facing, rail_origin, take_nodes
-from contact.kernels.pair import solve_patch
 from contact.kernels.pair_conditions import derive_pair
+from contact.kernels.pair_patches import solve_patch
 from contact.kernels.records import CASE, CONTACT, DAMAGE_PARAMETERS, MAX_PATCHES, MOTION, PAIR_INPUT, RESULT, TOTAL
 from contact.kernels.rows import N_PROFILE_ROWS, Bin, Moved
 
