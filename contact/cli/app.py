@@ -28,6 +28,7 @@ from contact.cli.inp import inp
 from contact.cli.lut import lut
 from contact.cli.output import deliver, drawing, reported
 from contact.cli.plugins import add_plugins
+from contact.cli.problem import Position
 from contact.cli.profile_check import check
 from contact.cli.rail import rail as elastic_rail
 from contact.cli.roller import roller
@@ -85,10 +86,9 @@ def solve(
     options |= {"trace": trace, "conformal": conformal}
     arguments.require_use(context)
     with redirect_stdout(sys.stderr if output.as_json else sys.stdout):  # a trace is not part of the JSON
-        case = None if curvatures is not None else place.position(side)
-        touches = amount.touches(case, curvatures, place.speed, options)
-    title = f"Half curvatures {curvatures[0]:g} and {curvatures[1]:g} 1/m" if curvatures else _title(case)
-    report.deliver_patches(touches, title, place.radius, output)
+        case = curvatures or place.position(side)
+        touches = amount.touches(case, place.speed, options)
+    report.deliver_patches(touches, _title(case), place.radius, output)
 
 
 @app.command()
@@ -114,7 +114,7 @@ def patch(
     case = place.position(side)
     options = {"friction": surface.law(gauge_friction), "material": arguments.material(pressure_limit)}
     options |= {**vars(methods), "conformal": conformal, **PICTURE_RESOLUTION}
-    touches = amount.touches(case, None, place.speed, options)
+    touches = amount.touches(case, place.speed, options)
     sides = {name: [t for t in touches if t.side == name] for name in case.sides}
 
     def figure() -> Any:
@@ -234,7 +234,9 @@ def run(arguments: Sequence[str]) -> None:
     app(args=list(arguments), prog_name="contact")
 
 
-def _title(case: Any) -> str:
+def _title(case: Position | tuple[float, float]) -> str:
+    if not isinstance(case, Position):
+        return f"Half curvatures {case[0]:g} and {case[1]:g} 1/m"
     pose = case.pose
     return (
         f"{case.wheel.name or 'wheel'} on {case.rail.name or 'rail'}: y = {1e3 * pose.y:g} mm, "

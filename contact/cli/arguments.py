@@ -167,13 +167,11 @@ class Amount:
         """The creepage of the options, instead of that of the rolling wheelset."""
         return None if self.creepage is None else Creepage(*self.creepage)
 
-    def touches(
-        self, case: Position | None, curvatures: tuple[float, float] | None, speed: float, options: dict[str, Any]
-    ) -> list[Touch]:
+    def touches(self, case: Position | tuple[float, float], speed: float, options: dict[str, Any]) -> list[Touch]:
         """Return every patch of a position, or the one of two curvatures, solved."""
-        if case is not None:
+        if isinstance(case, Position):
             return solve_position(case, self.load, self.penetration, self.given, options)
-        return [solve_hertzian(curvatures, self.load, self.penetration, self.given, options | {"speed": speed})]
+        return [solve_hertzian(case, self.load, self.penetration, self.given, options | {"speed": speed})]
 
 
 @dataclass

@@ -106,7 +106,7 @@ def solve_position(
 
 
 def solve_hertzian(
-    curvatures: tuple[float, float] | None,
+    curvatures: tuple[float, float],
     load: float | None,
     approach: float | None,
     creepage: Creepage | None,
@@ -114,7 +114,7 @@ def solve_hertzian(
 ) -> Touch:
     """Return the solved patch of two constant half curvatures [1/m] under a normal load [N] or approach [m]."""
     load = standard_load(load, approach)
-    separation = Separation.hertzian(*(curvatures or ()))
+    separation = Separation.hertzian(*curvatures)
     return Touch(solve(separation, creepage or Creepage(), load=load, approach=approach, **options))
 
 

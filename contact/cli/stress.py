@@ -48,8 +48,8 @@ def stress(
     line = None if endurance is None else Endurance(*endurance)
     options = {"friction": surface.law(), **vars(methods)}
     arguments.require_use(context)
-    case = None if curvatures is not None else place.position(side)
-    touches = [one for one in amount.touches(case, curvatures, place.speed, options) if one.solution.N > 0.0]
+    case = curvatures or place.position(side)
+    touches = [one for one in amount.touches(case, place.speed, options) if one.solution.N > 0.0]
     found = [stresses(touch, body, slope, line) for touch in touches]
     if not touches:
         output.without_contact()

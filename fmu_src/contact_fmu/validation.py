@@ -22,12 +22,11 @@ from .validation_momentum import momentum
 from .variables import Causality, Table
 
 KINDS = {"cs": "CoSimulation", "me": "ModelExchange"}
-#: Tolerance of an output as a share of its largest value: another processor, and rates that add up in another way.
-_RELATIVE, _TOTAL = 1e-3, 2e-2
-#: The same of outputs that are of one element, which sticks or slips: another start of the iteration may decide that (.004).
-_OF_ELEMENTS, _ELEMENT = ("_max", "slip.ratio"), 1e-2
-#: The same of slopes, which change steeply where a stick zone ends: the last digit of an input may decide on which side (.002).
-_OF_SLOPES, _SLOPE = "creep_stiffness", 1e-2
+#: Tolerance of an output as a share of its largest value, on another processor; and that of some outputs by their names. Rates
+#: add up in another way. One element sticks or slips: another start of the iteration may decide that (.004). Slopes are steep
+#: where a stick zone ends: the last digit of an input may decide on which side (.002).
+_RELATIVE = 1e-3
+_SHARES = {r"total\.": 2e-2, r"(_max|slip\.ratio)$": 1e-2, r"^creep_stiffness": 1e-2}
 _README = """# Validation set of {name}
 
 FMI {version}, {kind}. File of the FMU: {file}
@@ -202,10 +201,7 @@ def _csv(path: Path, time: Array, rows: dict[str, Array], separator: str = ",") 
 
 def tolerance(name: str, values: Array) -> float:
     """Return the absolute tolerance of an output with these values. The tolerance of a number that is always 0 is 1e-9."""
-    if name.startswith(_OF_SLOPES):
-        share = _SLOPE
-    else:
-        share = _TOTAL if "total." in name else _ELEMENT if name.endswith(_OF_ELEMENTS) else _RELATIVE
+    share = next((share for pattern, share in _SHARES.items() if re.search(pattern, name)), _RELATIVE)
     return float(max(share * np.max(np.abs(values)), 1e-9))
 
 
