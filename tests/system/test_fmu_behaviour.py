@@ -79,7 +79,11 @@ REFUSED = [
 @pytest.mark.parametrize(("name", "values", "says"), REFUSED)
 def test_a_bad_input_is_discarded_by_name_and_the_instance_recovers(opened, name, values, says):
     fmu = opened(name)
-    fmu.update({NAME: {**CREEPAGES, **THESIS}, pair_case.NAME: {**pair_case.MOTION, **THESIS}}.get(name, {}))
+    fmu.update(
+        {NAME: {**CREEPAGES, **THESIS}, pair_case.NAME: {**pair_case.MOTION, **THESIS, "accumulation.wear_law": 2}}.get(
+            name, {}
+        )
+    )
     fmu.initialize(stop_time=1.0).step()
     before = fmu.all("output")
     recovers(fmu, values, says, 2)
