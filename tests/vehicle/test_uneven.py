@@ -86,26 +86,21 @@ def test_round_wheel_beside_an_uneven_one_is_that_of_the_round_vehicle_until_the
     assert mixed.state.books[Book.IMPACTS] > 0.0
 
 
-def test_impact_repeats_every_revolution(two_turns):
-    normal, _, run = two_turns
+def test_impact_repeats_every_revolution_and_keeps_its_energy(two_turns):
+    normal, residual, run = two_turns
     half = normal.size // 2
     first, second = normal[:half].argmax(), half + normal[half:].argmax()
     assert normal[first] > 5.0 * normal[0]
     assert normal[second] == pytest.approx(normal[first], rel=0.03)
     assert (second - first) * 1e-4 == pytest.approx(TURN, rel=2e-3)
     assert abs(run.rotations[0]) < 0.05  # two whole turns
+    assert abs(residual[half - 1]) < 2.0  # [J] after the impact; the contacts store up to 80 J in it
 
 
 def test_half_the_step_changes_the_peak_by_little(two_turns):
     normal, _, _ = two_turns
     finer, _, _ = loads(5e-5, 1.0)
     assert finer.max() == pytest.approx(normal[: normal.size // 2].max(), rel=0.03)
-
-
-def test_energy_of_an_impact_is_kept(two_turns):
-    normal, residual, _ = two_turns
-    half = normal.size // 2
-    assert abs(residual[half - 1]) < 2.0  # [J] after the impact; the contacts store up to 80 J in it
 
 
 @pytest.mark.usefixtures("undrawn")
