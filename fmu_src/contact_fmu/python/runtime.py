@@ -51,8 +51,8 @@ def _library(folder: Path) -> Path:
     if given != model:
         other = version[0] if version else "of an earlier version"
         raise RuntimeError(
-            f"this FMU {name} was built with wheelrail-contact {other}, and what it says of its model is not what the installed "
-            f"{__version__} says: install that version, or build the FMU anew"
+            f"this FMU {name} was built with wheelrail-contact {other}, and what it says of its model is not what the "
+            f"installed {__version__} says: install that version, or build the FMU anew"
         )
     return systems.of_this_machine()
 
