@@ -79,7 +79,7 @@ def test_kpec_is_contacts_kpec_patch_by_patch():
 
 @pytest.mark.parametrize(("normal", "force", "moment"), [
     ("analyn", (0.0150, 0.0684, 0.1302), 0.0137),  # bar .025 / .08
-    ("strip_halfspace", (0.0034, 0.0146, 0.0197), 0.0027),  # bar .012 / .03; .008
+    ("strip_halfspace", (0.0031, 0.0099, 0.0196), 0.0026),  # bar .012 / .03; .008
 ])  # fmt: skip
 def test_creep_forces_on_real_patches(normal, force, moment):
     errors = accuracy.errors_on_patches(normal, "fastrip_mapped")

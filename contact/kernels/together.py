@@ -67,7 +67,7 @@ def roll_together(n, creepage, spin, case, workspace):
     divided = is_divided(strips, 0, n)
     for copy in range(COPIES):
         if divided:
-            set_forces(strips, copy * n, (copy + 1) * n, case, of_patch[2], workspace.tables)
+            set_forces(strips, copy * n, (copy + 1) * n, case, of_patch[1], workspace.tables)
             set_pulls(strips, copy * n, (copy + 1) * n, (copy * n, (copy + 1) * n), case)
         set_effective(strips, copy * n, (copy + 1) * n, case, of_patch, workspace.tables)
     last = COPIES * n

@@ -198,3 +198,15 @@ def test_a_slender_turned_ellipse_has_the_half_spaces_lateral_force_under_spin(s
         march = contact.solve(separation, contact.Creepage(0.0, 0.0, spin), **given)
         exact = contact.solve(separation, contact.Creepage(0.0, 0.0, spin), **half_space, **given)
         assert abs(march.Fy - exact.Fy) < 0.5 * on_the_line * MU * 6e4
+
+
+@pytest.mark.parametrize(("steeper", "centre"), [(4.0, 1.397e-3), (10.0, 1.864e-3)])
+def test_a_small_spin_on_a_lopsided_patch_acts_around_the_half_spaces_centre(steeper, centre):
+    """Longitudinal force by spin over that by longitudinal creepage; 80 x 80 elements have this `centre` [m] for Mz too."""
+    y = np.linspace(-20e-3, 20e-3, 401)
+    separation = contact.Separation(y, np.where(y < 0.0, steeper, 1.0) * y**2, 1.1)
+    braked, spun = (
+        contact.solve(separation, contact.Creepage(*creepage), load=8e4, friction=MU)
+        for creepage in ((1e-5, 0.0, 0.0), (0.0, 0.0, 1e-3))
+    )
+    np.testing.assert_allclose(-spun.Fx / braked.Fx * 1e-2, centre, rtol=0.03)

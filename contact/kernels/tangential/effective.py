@@ -25,9 +25,9 @@ from contact.kernels.tangential.skew import coupled
 from contact.kernels.tangential.table import Part, interpolated, is_beyond, signs, units
 from contact.kernels.tangential.ties import is_read, share_shape
 
-#: What a lopsided shape adds (mapped_strip.md Eq. lopsided): longitudinal creepage by spin, and by lateral creepage with and
-#: without spin; lateral creepage by longitudinal creepage without and with both, and by spin if the shape is skewed.
-_SPIN, _LATERAL, _LONGITUDINAL, _AHEAD = 0.4, (0.4, -1.3), (0.3, -1.0), 0.7
+#: What a lopsided shape adds (mapped_strip.md Eq. lopsided): longitudinal creepage by spin, creepage without spin, and lateral
+#: creepage by spin if the shape is skewed.
+_SPIN, _WITHOUT_SPIN, _AHEAD = 0.6, 0.4, 0.7
 #: What a shape with a tail adds: a part of the creepages, and lateral creepage by spin.
 _OF_TAIL, _SPIN_OF_TAIL = -0.1, 0.33
 #: Most that counts of how lopsided a shape is.
@@ -45,8 +45,8 @@ def _on_shape(lopsided, ahead, tail, X, Y, Z):
     square = X * X + Y * Y + Z * Z
     fading = 1.0 / (1.0 + square)
     cube = fading * math.sqrt(fading)
-    to_x = _SPIN * fading * Z + Y * (_LATERAL[0] * cube * Y * Y + _LATERAL[1] * fading * fading * Z * Z)
-    to_y = X * (_LONGITUDINAL[0] * square * fading * fading + _LONGITUDINAL[1] * cube * Y * Z)
+    to_x = _SPIN * fading * Z + Y * (_WITHOUT_SPIN * cube * Y * Y - fading * fading * Z * Z)
+    to_y = X * (_WITHOUT_SPIN * square * fading * fading - cube * Y * Z)
     by_tail = tail * (_OF_TAIL * fading * Y + _SPIN_OF_TAIL * square * cube * Z)
     return lopsided * to_x + tail * _OF_TAIL * fading * X, lopsided * to_y + by_tail + ahead * _AHEAD * fading * Z
 
@@ -83,7 +83,7 @@ def _changes(strips, first, last, case, centre, of_patch, tables):
     if not limit > NO_FRICTION * G * a * b or (vx == 0.0 and vy == 0.0 and phi == 0.0):
         return 0.0, 0.0, 0.0, 0.0, 0.0
     x, vx, vy, phi = x / weights, vx / weights, vy / weights, phi / weights
-    log_aspect, c = math.log(a / b) + of_patch[2], math.sqrt(a * b)
+    log_aspect, c = math.log(a / b) + of_patch[1], math.sqrt(a * b)
     coefficients = kalker.coefficients(tables.kalker, log_aspect)
     unit_x, unit_y, unit_z, weight = units(G, c, limit, log_aspect, coefficients)
     unit_spin = weight * unit_z
@@ -94,7 +94,7 @@ def _changes(strips, first, last, case, centre, of_patch, tables):
     )
     r = math.sqrt(X * X + Y * Y + spin * spin)
     to_spin *= sign_y * r / unit_spin
-    by_turn_x, by_turn_y = coupled(of_patch[3], case.nu, r, coefficients, c, (vx, vy, phi))
+    by_turn_x, by_turn_y = coupled(of_patch[2], case.nu, r, coefficients, c, (vx, vy, phi))
     lopsided = min(max((stiffness_y / stiffness - load_y / load) / c, -_MOST), _MOST)
     ahead = min(max((stiffness_x / stiffness - load_x / load) / c, -_MOST), _MOST)
     by_shape_x, by_shape_y = _on_shape(lopsided, ahead, math.log(longest / a), X, Y, unit_z * phi)

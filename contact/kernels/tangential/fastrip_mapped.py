@@ -53,7 +53,7 @@ _ROUND_OFF = 1e-12  # a slip zone shorter than this, over half the length of its
 
 
 #: Numbers of a patch that `set_shapes` returns.
-OfPatch = tuple[float, float, float, float]
+OfPatch = tuple[float, float, float]
 
 
 class Uneven(NamedTuple):
@@ -309,7 +309,7 @@ def set_shapes(first: int, last: int, workspace: Workspace) -> OfPatch:
 def estimate_patch(part, case, workspace):
     """Estimate the forces with which the strips of one of several patches pull at the others."""
     of_patch = set_shapes(part.first, part.last, workspace)
-    set_forces(workspace.strips, part.first, part.last, case, of_patch[2], workspace.tables)
+    set_forces(workspace.strips, part.first, part.last, case, of_patch[1], workspace.tables)
 
 
 @kernel
@@ -322,7 +322,7 @@ def fastrip_mapped(part, n, case, workspace, result):
     of_patch = set_shapes(part.first, part.last, workspace)
     alone = part.last - part.first == n
     if alone and is_divided(strips, 0, n):
-        set_forces(strips, 0, n, case, of_patch[2], workspace.tables)
+        set_forces(strips, 0, n, case, of_patch[1], workspace.tables)
     if not alone or is_divided(strips, 0, n):
         set_pulls(strips, part.first, part.last, (0, n), case)
     beyond = set_effective(workspace.strips, part.first, part.last, case, of_patch, workspace.tables)

@@ -76,7 +76,7 @@ def set_block(strips, block, last, case, table, of_patch, lanes):
     near the line of least gap: on a skewed patch, strips hold each other back (mapped_strip.md 7).
     """
     G = case.G
-    offset, rho33, turn, _ = of_patch
+    rho33, turn, _ = of_patch
     least = NO_FRICTION * G
     for l in range(marching(lanes)):
         i = min(block + l, last - 1)
@@ -132,7 +132,7 @@ def set_block(strips, block, last, case, table, of_patch, lanes):
         stretch = small_exp(0.47 * h) / (1.0 + 2.0 * n_map)
         spin = psi * small_exp((0.19 - 0.07 * fitted) * h)
         shift = (1.0 - rho23) * w
-        X = stretch * (translation + (1.0 + (rho33 - 1.0) * w) * rotation - w * k11 * phi * offset)
+        X = stretch * (translation + (1.0 + (rho33 - 1.0) * w) * rotation)
         Y = stretch * lateral * (1.0 - shift)
         P = spin + (1.0 + 2.0 * n_map) * stretch * lateral * shift
         used = 0.25 * X * X + (0.5 * Y + P) * (0.5 * Y + P)

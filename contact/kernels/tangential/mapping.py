@@ -104,31 +104,26 @@ def _aspects_of_shape(strips, first, last, i):
 def set_aspects(strips, first, last, table):
     """Set ln(a/b) of the strips of a patch in place, and their stiffness (mapped_strip.md 3, step 0).
 
-    Return the distance of the centre of spin from that of longitudinal stiffness [m], the C33 factor of the patch, and its
-    turn (`turn_of`). The weights are C11·a²·dy and C11·a·dy. On an ellipse both centres are its own.
+    Return the C33 factor of the patch, and its turn (`turn_of`). The weights are C11·a·dy.
     """
     turn, coupling = turn_of(strips, first, last)
-    stiffness, moment, stiffness2, moment2, spin = 0.0, 0.0, 0.0, 0.0, 0.0
+    stiffness, spin = 0.0, 0.0
     i = first
     while i < last:
         mean, equivalent = _aspects_of_shape(strips, first, last, i)
         of_shape = _LOCAL * mean + (1.0 - _LOCAL) * (equivalent + _TURN * turn)
         end = end_of_shape(strips, last, i)
         for j in range(i, end):
-            a, y = strips[Strip.A, j], strips[Strip.Y, j]
             log_aspect = of_shape + _DEVIATION * (strips[Strip.LN_ASPECT, j] - mean)
             c11, _, _, c33 = kalker.coefficients(table, log_aspect)
-            weight = c11 * a * strips[Strip.DY, j]
+            weight = c11 * strips[Strip.A, j] * strips[Strip.DY, j]
             strips[Strip.ASPECT, j], strips[Strip.STIFFNESS, j] = log_aspect, weight
             stiffness += weight
-            moment += weight * y
-            stiffness2 += weight * a
-            moment2 += weight * a * y
             spin += weight * 4.0 * c33 * math.exp(log_aspect) / c11
         i = end
     if not stiffness > 0.0:
-        return 0.0, 1.0, 0.0, 0.0
-    return moment2 / stiffness2 - moment / stiffness, spin / stiffness, turn, coupling
+        return 1.0, 0.0, 0.0
+    return spin / stiffness, turn, coupling
 
 
 @kernel
