@@ -121,13 +121,14 @@ def _mean_gap(sep, low, high, k):
 def unresolved(sep, n, per_modulus, strips):
     """Return the mean pressure of the waves of the gap that strips do not see, over the largest pressure [-].
 
-    Strips see the mean gaps over their widths. The slopes between these, linear between the strips, are those that they see. A
-    wave with the slope s beside them needs the pressure E* s/2, as if it were as long as the patch. The mean of |s| is weighted
-    with the load of the strips.
+    Strips see the mean gaps over their widths, and slopes that are linear between these. A sinusoidal wave whose slope is s
+    beyond them, and on which the gap closes, has pressures E* s/2 (Johnson 1985, 13.2). The mean of |s| is weighted with the
+    loads of the strips.
     """
     y, g, size = sep.y, sep.g, sep.y.size
     left, weights, top = 0.0, 0.0, 0.0
-    gap, slope, middle, k, run = 0.0, 0.0, 0.0, 0, 0  # of the last strip, between it and the one before; strips since a gap
+    gap, slope, middle = 0.0, 0.0, 0.0  # of the last strip, and between it and the one before
+    k, run = 0, 0  # run: strips since the last space between two of them
     for i in range(n):
         at, half, before = strips[Strip.Y, i], 0.5 * strips[Strip.DY, i], strips[Strip.Y, max(i - 1, 0)]
         top = max(top, strips[Strip.P0, i])
