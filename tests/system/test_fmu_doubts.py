@@ -2,7 +2,6 @@
 
 import pytest
 from fmu_instance import WARNING, Instance
-from fmu_instance_fmi3 import Instance3
 
 from contact.results import ANSWERS, BEND
 
@@ -44,9 +43,10 @@ def test_the_status_of_the_step_is_a_warning_and_the_next_one_is_ok(opened):
 def test_a_contact_doubts_its_own_values(opened):
     fmu = opened("EllipticContact")
     fmu.update({"load.normal_force": 80.0, "creepage.longitudinal": 0.5, "creepage.spin": 30.0, "speed": 200.0})
+    fmu.update({"wheel.radius": 0.92})
     fmu.initialize().step()
     named = [text.split(" = ")[0] for text in warned(fmu)]
-    assert sorted(named) == ["creepage.longitudinal", "creepage.spin", "load.normal_force", "speed"]
+    assert sorted(named) == ["creepage.longitudinal", "creepage.spin", "load.normal_force", "speed", "wheel.radius"]
 
 
 def test_what_is_not_used_or_zero_is_not_doubted(opened):
@@ -62,15 +62,6 @@ def test_a_load_below_zero_is_none_and_not_doubted(opened):
     fmu.initialize().step()
     assert warned(fmu) == []
     assert fmu["force.z"] == 0.0
-
-
-def test_fmi_3_says_the_same(native_fmi3_folder):
-    instance = Instance3(native_fmi3_folder)
-    instance.update({"friction.coefficient": 35.0})
-    instance.initialize()
-    instance.step()
-    assert any("friction.coefficient = 35: " in str(said) for said in instance.log)
-    instance.free()
 
 
 @pytest.mark.parametrize(
