@@ -191,5 +191,5 @@ def derivative_arrays(size: tuple[int, int, int], of_pair: PairArrays) -> Deriva
     if isinstance(search, SurfaceSearch):
         near = surface_search(search.wheel, search.rail, search.separations.shape[2])
     else:
-        near = laid(memory.lay_near_search, full, search)
+        near = laid(memory.lay_near_search, full.n_samples, search)
     return laid(memory.lay_derivatives, full, near, of_pair)
