@@ -9,8 +9,7 @@ from pathlib import Path
 import fmpy
 import pytest
 from contact_case import NAME
-from fmu_instance import Instance
-from fmu_instance_fmi3 import Instance3
+from fmu_instance import Instance, Instance3
 from lark import Lark
 from pair_case import NAME as PAIR
 

@@ -1,14 +1,17 @@
 """FMU instances for tests."""
 
+import re
 from collections import defaultdict
 from collections.abc import Callable, Iterable
 from pathlib import Path
+from typing import ClassVar, Self
 
 import fmpy
 import numpy as np
 import pytest
 from fmpy.fmi1 import FMICallException
 from fmpy.fmi2 import FMU2Model, FMU2Slave, defaultCallbacks, fmi2CallbackFunctions, fmi2CallbackLoggerTYPE
+from fmpy.fmi3 import FMU3Model, FMU3Slave
 
 OK, WARNING, DISCARD, ERROR = range(4)
 
@@ -21,29 +24,35 @@ def named(group: str, **values: float) -> dict[str, float]:
 class Instance:
     """An instance with access to variables by name. It stores its log messages."""
 
+    classes: ClassVar = {"CoSimulation": FMU2Slave, "ModelExchange": FMU2Model}
+
     def __init__(self, directory: Path, log: list[tuple[int, str]] | None = None, kind: str = "CoSimulation") -> None:
         description = fmpy.read_model_description(str(directory))
         self.variables = {v.name: v for v in description.modelVariables}
         self.log = [] if log is None else log
-        self.callbacks = fmi2CallbackFunctions()
-        self.callbacks.logger = fmi2CallbackLoggerTYPE(self._log)
-        self.callbacks.allocateMemory = defaultCallbacks.allocateMemory
-        self.callbacks.freeMemory = defaultCallbacks.freeMemory
-        self.fmu = (FMU2Slave if kind == "CoSimulation" else FMU2Model)(
+        self.fmu = self.classes[kind](
             guid=description.guid,
             unzipDirectory=str(directory),
             modelIdentifier=description.coSimulation.modelIdentifier,
             instanceName="instance",
         )
-        self.fmu.instantiate(callbacks=self.callbacks, loggingOn=True)
+        self._instantiate()
         self.time = 0.0  # end of the last step
+
+    def _instantiate(self) -> None:
+        self.callbacks = fmi2CallbackFunctions()
+        self.callbacks.logger = fmi2CallbackLoggerTYPE(self._log)
+        self.callbacks.allocateMemory = defaultCallbacks.allocateMemory
+        self.callbacks.freeMemory = defaultCallbacks.freeMemory
+        self.fmu.instantiate(callbacks=self.callbacks, loggingOn=True)
 
     def free(self) -> None:
         """Free only the instance. fmpy's call would also unload the library, which other instances use."""
         self.fmu.fmi2FreeInstance(self.fmu.component)
 
-    def _log(self, environment, name, status, category, message) -> None:
-        self.log.append((status, message.decode()))
+    def _log(self, *words) -> None:
+        """Keep the status and the text of a message, of FMI 2.0 or 3.0."""
+        self.log.append((words[-3], words[-1].decode()))
 
     def update(self, values: dict[str, float]) -> None:
         for call, names in self._by_type(values, "set").items():
@@ -69,18 +78,108 @@ class Instance:
     def all(self, *causalities: str) -> dict[str, float]:
         return self.read(name for name, v in self.variables.items() if v.causality in causalities)
 
-    def initialize(self, stop_time: float | None = None) -> "Instance":
+    def references(self, *groups: Iterable[str]) -> list[list[int]]:
+        return [[self.variables[name].valueReference for name in group] for group in groups]
+
+    def directional(self, unknowns: Iterable[str], knowns: Iterable[str], seed: Iterable[float]) -> np.ndarray:
+        """Return the derivative of each unknown along a direction: a seed for each of the knowns."""
+        return np.array(self.fmu.getDirectionalDerivative(*self.references(unknowns, knowns), list(seed)))
+
+    def quotient(self, unknowns: Iterable[str], knowns: Iterable[str], seed: Iterable[float], h: float) -> np.ndarray:
+        """Return the same in model exchange by a central difference of fourth order with steps of h along the direction."""
+        at, names, found = self.read(knowns), list(unknowns), []
+        for k in (-2, -1, 1, 2, 0):
+            self.update({name: value + k * h * s for (name, value), s in zip(at.items(), seed, strict=True)})
+            found.append(np.array(list(self.read(names).values())) if k else np.nan)
+        return (found[0] - 8.0 * found[1] + 8.0 * found[2] - found[3]) / (12.0 * h)
+
+    def initialize(self, stop_time: float | None = None) -> Self:
         self.time = 0.0
-        self.fmu.setupExperiment(startTime=0.0, stopTime=stop_time)
-        self.fmu.enterInitializationMode()
+        self._begin(stop_time)
         self.fmu.exitInitializationMode()
         return self
 
-    def step(self, time: float | None = None, h: float = 1e-3) -> None:
-        """Do a step from `time`, by default from the end of the last one."""
+    def _begin(self, stop_time: float | None) -> None:
+        self.fmu.setupExperiment(startTime=0.0, stopTime=stop_time)
+        self.fmu.enterInitializationMode()
+
+    def step(self, time: float | None = None, h: float = 1e-3) -> object:
+        """Do a step from `time`, by default from the end of the last one. Return what fmpy returns."""
         begin = self.time if time is None else time
-        self.fmu.doStep(begin, h)
+        answer = self.fmu.doStep(begin, h)
         self.time = begin + h
+        return answer
+
+
+class Instance3(Instance):
+    """An instance of FMI 3.0. Arrays are variables; an element has its name of FMI 2.0 too: `wheel[2].force.y`."""
+
+    classes: ClassVar = {"CoSimulation": FMU3Slave, "ModelExchange": FMU3Model}
+
+    def _instantiate(self) -> None:
+        self.fmu.instantiate(loggingOn=True, logMessage=self._log)
+
+    def free(self) -> None:
+        self.fmu.fmi3FreeInstance(self.fmu.component)
+
+    def _call(self, prefix: str, name: str):
+        kind = self.variables[name].type
+        return getattr(self.fmu, prefix + ("Int64" if kind == "Enumeration" else kind))
+
+    def element(self, name: str) -> tuple[str, tuple[int, ...]]:
+        """Return the variable and the place in it of what FMI 2.0 has as one number."""
+        index = re.search(r"\[([\d,]+)\]", name)
+        if name in self.variables or not index:
+            return name, ()
+        return name.replace(index[0], ""), tuple(int(i) - 1 for i in index[1].split(","))
+
+    def shape(self, name: str) -> tuple[int, ...]:
+        """Return the present shape of an array of the instance."""
+        return tuple(d.start or self[d.variable.name] for d in self.variables[name].dimensions)
+
+    def update(self, values: dict) -> None:
+        whole = {}
+        for name, value in values.items():
+            variable, place = self.element(name)
+            if place:
+                whole.setdefault(variable, self[variable])[place] = value
+            else:
+                whole[variable] = value
+        for name, value in whole.items():
+            self._call("set", name)([self.variables[name].valueReference], np.ravel(value).tolist())
+
+    def __getitem__(self, name: str):
+        name, place = self.element(name)
+        shape = self.shape(name)
+        values = self._call("get", name)([self.variables[name].valueReference], nValues=int(np.prod(shape)))
+        return np.array(values).reshape(shape)[place] if shape else values[0]
+
+    def read(self, names: Iterable[str]) -> dict:
+        """Return values, those of arrays as nested lists."""
+        return {name: np.array(self[name]).tolist() for name in names}
+
+    def size(self, names: Iterable[str]) -> int:
+        return sum(int(np.prod(self.shape(name))) for name in names)
+
+    def directional(self, unknowns: Iterable[str], knowns: Iterable[str], seed: Iterable[float]) -> np.ndarray:
+        """Return directional derivatives by a seed for each element of the knowns."""
+        references, n = self.references(unknowns, knowns), self.size(unknowns)
+        return np.array(self.fmu.getDirectionalDerivative(*references, list(seed), nSensitivity=n))
+
+    def adjoint(self, unknowns: list[str], knowns: list[str], seed: Iterable[float]) -> np.ndarray:
+        """Return adjoint derivatives by a seed for each element of the unknowns."""
+        references, n = self.references(unknowns, knowns), self.size(knowns)
+        return np.array(self.fmu.getAdjointDerivative(*references, list(seed), nSensitivity=n))
+
+    def configure(self, **counts: int) -> Self:
+        """Set structural parameters `resolution.…`."""
+        self.fmu.enterConfigurationMode()
+        self.update({f"resolution.{name}": count for name, count in counts.items()})
+        self.fmu.exitConfigurationMode()
+        return self
+
+    def _begin(self, stop_time: float | None) -> None:
+        self.fmu.enterInitializationMode(startTime=0.0, stopTime=stop_time)
 
 
 def refused(call, status: int) -> None:

@@ -46,8 +46,9 @@ def mirrored(values: dict[str, float]) -> dict[str, float]:
 
 
 def warm(fmu):
-    """Set MOTION and strips that interact, which start from the last step, in an instance and return it."""
-    fmu.update({**MOTION, "method.normal": list(METHODS.normal).index("strip_halfspace") + 1})
+    """Set MOTION, strips that interact, which start from the last step, and damage in bins in an instance and return it."""
+    strips = {"method.normal": list(METHODS.normal).index("strip_halfspace") + 1}
+    fmu.update({**MOTION, **strips, "accumulation.wear_law": 2})
     return fmu
 
 

@@ -10,7 +10,6 @@ import pair_case
 import pytest
 import wheelset_case
 from contact_case import CREEPAGES, NAME, posed
-from contact_case_fmi3 import pose
 from fmu_instance import DISCARD, ERROR, WARNING, Instance, goes_on, recovers, refused
 from thesis_case import THESIS
 
@@ -43,16 +42,15 @@ def trajectory(fmu, start: int) -> list[dict[str, float]]:
     return rows
 
 
-@pytest.fixture(params=[NAME, "Wheelset", pair_case.NAME, "FMI 3.0"])
+@pytest.fixture(params=[NAME, "Wheelset", pair_case.NAME])
 def kind(request, opened):
     """Return each of the FMUs as a `Kind`. The strips of the pair interact, so each step starts from the last one."""
-    of_fmi_3 = request.param == "FMI 3.0"
-    make = request.getfixturevalue("open_native_fmi3") if of_fmi_3 else partial(opened, request.param)
+    make = partial(opened, request.param)
     if request.param == pair_case.NAME:
         return Kind(make, pair_case.warm, pair_case.trajectory, 4)
     if request.param == "Wheelset":
         return Kind(make, lambda fmu: fmu.update({"initial.y[1]": 1e-3}), wheelset_case.trajectory, 3)
-    return Kind(make, pose if of_fmi_3 else prepared, trajectory, 5)
+    return Kind(make, prepared, trajectory, 5)
 
 
 #: FMU, value, and what is said of it: for inputs and tunable parameters.
@@ -81,7 +79,11 @@ REFUSED = [
 @pytest.mark.parametrize(("name", "values", "says"), REFUSED)
 def test_a_bad_input_is_discarded_by_name_and_the_instance_recovers(opened, name, values, says):
     fmu = opened(name)
-    fmu.update({NAME: {**CREEPAGES, **THESIS}, pair_case.NAME: {**pair_case.MOTION, **THESIS}}.get(name, {}))
+    fmu.update(
+        {NAME: {**CREEPAGES, **THESIS}, pair_case.NAME: {**pair_case.MOTION, **THESIS, "accumulation.wear_law": 2}}.get(
+            name, {}
+        )
+    )
     fmu.initialize(stop_time=1.0).step()
     before = fmu.all("output")
     recovers(fmu, values, says, 2)

@@ -2,7 +2,6 @@
 
 import pytest
 from fmu_instance import WARNING, Instance
-from fmu_instance_fmi3 import Instance3
 
 from contact.results import ANSWERS, BEND
 
@@ -62,15 +61,6 @@ def test_a_load_below_zero_is_none_and_not_doubted(opened):
     fmu.initialize().step()
     assert warned(fmu) == []
     assert fmu["force.z"] == 0.0
-
-
-def test_fmi_3_says_the_same(native_fmi3_folder):
-    instance = Instance3(native_fmi3_folder)
-    instance.update({"friction.coefficient": 35.0})
-    instance.initialize()
-    instance.step()
-    assert any("friction.coefficient = 35: " in str(said) for said in instance.log)
-    instance.free()
 
 
 @pytest.mark.parametrize(

@@ -1,8 +1,7 @@
-"""Damage that the FMU `WheelRailPair` accumulates in bins over both profiles."""
+"""Damage that the FMU `WheelRailPair` accumulates in bins over both profiles. `test_fmu_behaviour.py` has their states."""
 
 import numpy as np
 import pytest
-from fmu_instance import discarded
 from thesis_case import THESIS
 
 import contact
@@ -14,8 +13,6 @@ from contact.instance import workspace
 from contact.pair import WheelRailPair
 from contact_fmu.tables.wheel_rail_pair import BINS, BODIES
 
-ON = {"accumulation.wear_law": 2}
-
 
 def bins(fmu, body: str, quantity: str) -> np.ndarray:
     """Return the bins of a quantity on one body."""
@@ -26,13 +23,6 @@ def everything(fmu) -> np.ndarray:
     return np.array([bins(fmu, body, quantity) for body in BODIES for quantity in SUMS | MAXIMA])
 
 
-def rolled(fmu, start: int = 0, steps: int = 4):
-    for k in range(start, start + steps):
-        fmu.update({"pose.y": 2e-3 * k})
-        fmu.step(2e-3 * k, 2e-3)
-    return fmu
-
-
 SPIN = -30.0 / 0.46 * 1.001
 ROLLING = {"pose.yaw": 4e-3, "velocity.x": 30.0, "velocity.spin": SPIN, **THESIS}
 
@@ -41,7 +31,10 @@ ROLLING = {"pose.yaw": 4e-3, "velocity.x": 30.0, "velocity.spin": SPIN, **THESIS
 def test_bins_are_those_of_the_ledger_of_a_pair_and_add_up_to_the_totals(open_pair, law):
     fmu = open_pair()
     fmu.update({**ROLLING, "accumulation.wear_law": law + 2})
-    rolled(fmu.initialize())
+    fmu.initialize()
+    for k in range(4):
+        fmu.update({"pose.y": 2e-3 * k})
+        fmu.step(2e-3 * k, 2e-3)
     bodies = profile.s1002(), profile.rail_60e1(1 / 40)
     ledger = workspace.ledger(*(np.stack((p.y, p.z)) for p in bodies), 20, BINS, fmu["accumulation.first"], 1e-3)
     damage = DamageParameters(wear_law=WEAR_LAWS[law])
@@ -54,31 +47,6 @@ def test_bins_are_those_of_the_ledger_of_a_pair_and_add_up_to_the_totals(open_pa
             assert bins(fmu, body, "volume").sum() == pytest.approx(fmu["total.worn_volume"], rel=1e-12)
         assert bins(fmu, body, "T_gamma").sum() == pytest.approx(fmu["total.T_gamma"], rel=1e-12)
     assert fmu["total.T_gamma"] > 0.0
-
-
-def test_bins_are_part_of_the_state_and_a_discarded_step_leaves_them(open_pair):
-    fmu, other = open_pair(), open_pair()
-    fmu.update({**ROLLING, **ON})
-    rolled(fmu.initialize(), steps=2)
-    state, before = fmu.fmu.getFMUstate(), everything(fmu)
-    content = fmu.fmu.serializeFMUstate(state)
-    wanted = everything(rolled(fmu, 2, 2))
-    assert (wanted > before).any()
-    fmu.fmu.setFMUstate(state)
-    np.testing.assert_array_equal(everything(fmu), before)
-    good = fmu["pose.yaw"]
-    fmu.update({"pose.yaw": 1.0})
-    discarded(fmu, 4e-3, 2e-3)
-    np.testing.assert_array_equal(everything(fmu), before)
-    fmu.update({"pose.yaw": good})
-    np.testing.assert_array_equal(everything(rolled(fmu, 2, 2)), wanted)
-    fmu.fmu.freeFMUstate(state)
-    other.fmu.setFMUstate(other.fmu.deSerializeFMUstate(content))
-    np.testing.assert_array_equal(everything(other), before)
-    np.testing.assert_array_equal(everything(rolled(other, 2, 2)), wanted)
-    fmu.fmu.reset()
-    fmu.update({**ROLLING, **ON})
-    assert not everything(fmu.initialize()).any()
 
 
 def test_bins_stay_zero_when_nothing_accumulates(open_pair):

@@ -6,11 +6,9 @@ import subprocess
 import sys
 from pathlib import Path
 
-import fmpy
 import numpy as np
 import pytest
 from fmpy.fmi1 import FMICallException
-from fmu_instance import Instance
 from pair_case import MOTION, NAME, R0, compare, expected, solved
 from thesis_case import THESIS
 
@@ -88,21 +86,6 @@ def test_takes_a_users_own_profiles(native, open_pair, tmp_path):
     wanted = expected(solved(values, WheelRailPair(Pair(*profiles, gauge_point=1e-3))), 20.0)
     assert {name: fmu[name] for name in wanted} == pytest.approx(wanted, rel=1e-12, abs=1e-12)
     assert fmu["patch[1].angle"] == pytest.approx(-math.atan(0.05), abs=1e-5)
-
-
-@pytest.mark.parametrize("damage", ["a bit", "the end", "all"])
-def test_a_damaged_profile_is_refused_when_instantiated(native, tmp_path, damage):
-    folder = Path(fmpy.extract(str(native.with_name(f"{NAME}.fmu")), str(tmp_path)))
-    resource = folder / "resources" / "rail.profile"
-    content = bytearray(resource.read_bytes())
-    content[2000] ^= damage == "a bit"
-    resource.write_bytes(content[:-9] if damage == "the end" else content)
-    if damage == "all":
-        resource.unlink()
-    log = []
-    with pytest.raises(Exception, match="instantiate"):
-        Instance(folder, log)
-    assert "resource rail.profile" in log[0][1]
 
 
 def test_a_state_of_other_profiles_is_refused(native, open_pair, tmp_path):

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from fmu_instance_fmi3 import Instance3
+from fmu_instance import Instance3
 
 CREEPAGES = {"creepage.longitudinal": 1e-3, "creepage.lateral": -5e-4, "creepage.spin": 0.2}
 CONTACT = ("force.x", "force.y", "moment.z", "force.n", "approach", "power.friction")

@@ -9,10 +9,8 @@ from pathlib import Path
 import fmpy
 import numpy as np
 import pytest
-from differences import derivative, quotient
 from fmpy.fmi1 import FMICallException
 from fmu_instance import DISCARD, Instance, answered_extremes, recovers
-from fmu_instance_fmi3 import Instance3
 from pair_case import METHODS, R0, expected, scale, solved
 
 from contact.errors import ContactError
@@ -64,24 +62,21 @@ def resources_of(case: str) -> dict[str, bytes]:
 
 
 @pytest.fixture(scope="module")
-def folders(native_surfaces, tmp_path_factory) -> list[Path]:
-    """Return the folders of the unzipped FMUs of FMI 2.0 and 3.0, whose resources tests replace."""
-    place = tmp_path_factory.mktemp("unzipped")
-    return [
-        Path(fmpy.extract(str(path), str(place / f"with blanks, ümläuts {k}")))
-        for k, path in enumerate(native_surfaces)
-    ]
+def folder(native_surfaces, tmp_path_factory) -> Path:
+    """Return the folder of the unzipped FMU, whose resources tests replace."""
+    return Path(
+        fmpy.extract(str(native_surfaces[0]), str(tmp_path_factory.mktemp("unzipped") / "with blanks, ümläuts"))
+    )
 
 
 @pytest.fixture
-def open_fmu(folders, freed):
+def open_fmu(folder, freed):
     """Return a function that instantiates the FMU with other resources."""
 
-    def open_fmu(new: dict[str, bytes], version: int = 2, kind: str = "CoSimulation"):
-        folder = folders[version - 2]
+    def open_fmu(new: dict[str, bytes], kind: str = "CoSimulation"):
         for name, content in new.items():
             (folder / "resources" / name).write_bytes(content)
-        return freed((Instance if version == 2 else Instance3)(folder, kind=kind))
+        return freed(Instance(folder, kind=kind))
 
     return open_fmu
 
@@ -114,20 +109,6 @@ def test_the_fmu_gives_the_solvers_result_along_the_way(open_fmu, case):
     assert patches == ({1, 2} if case == "crossing" else {1})
 
 
-def test_fmi_3_gives_the_same(open_fmu):
-    _, sweep, given = CASES["crossing"]
-    content, values = resources_of("crossing"), start_values(given)
-    one, other = open_fmu(content), open_fmu(content, version=3)
-    one.update(values)
-    other.update(values)
-    for fmu in (one.initialize(), other.initialize()):
-        for station, rotation in sweep[:4]:
-            fmu.update({"pose.station": station, "pose.rotation": rotation})
-            fmu.step()
-    for name in ("force.x", "force.z", "moment.y", "wheelset.z", "pressure.max", "gap_error"):
-        assert other[name] == one[name]
-
-
 def test_rolling_back_is_refused_by_name(open_fmu):
     fmu = open_fmu(resources_of("constant")).initialize()
     recovers(fmu, {"velocity.x": -1.0}, "velocity.x = -1 is outside the allowed range [0, inf[")
@@ -158,8 +139,8 @@ def test_directional_derivatives_follow_station_and_rotation(open_fmu):
     fmu.initialize()
     z = fmu["wheelset.z"]
     fmu.update({"pose.z": z + 3e-4})
-    turning = ["force.z"], {"pose.rotation": 1.0}
-    found, wanted = derivative(fmu, *turning), quotient(fmu, *turning, 5e-5)
+    turning = ["force.z"], ["pose.rotation"], [1.0]
+    found, wanted = fmu.directional(*turning), fmu.quotient(*turning, 5e-5)
     assert abs(wanted) > 1e5
     assert found == pytest.approx(wanted, rel=0.02)
 

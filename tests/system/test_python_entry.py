@@ -1,17 +1,15 @@
 """The library of an FMU for hosts with Python: it finds the package that is installed, or says what is missing."""
 
 import ctypes
-import math
 import os
 import subprocess
 import sys
 from pathlib import Path
 
 import fmpy
-import pair_case
 import pytest
-from contact_case import CREEPAGES
 from fmu_instance import DISCARD, ERROR, Instance, goes_on
+from runs import RUNS
 from script_host import Script
 
 FOLDERS = [
@@ -107,15 +105,6 @@ def test_every_pointer_may_be_null(fmu):
     assert library["fmi2Instantiate"](None, 1, None, None, None, 0, 0) == 0
     library["fmi2FreeInstance"](None)
     fmu.step()
-
-
-#: FMU → inputs and parameters of a run, and one that ends it. The strips of the pair start from the last step.
-RUNS = {
-    "WheelRailContact": ({**CREEPAGES, "method.normal": 2, "friction.law": 3}, ("creepage.spin", math.nan)),
-    "EllipticContact": (CREEPAGES, ("geometry.A0", -1.0)),
-    "WheelRailPair": (pair_case.MOTION, ("pose.yaw", 0.5)),
-    "Wheelset": ({"initial.y[1]": 4e-3, "wheel[1].force.y": 1e3}, ("wheel[1].force.y", math.inf)),
-}
 
 
 def conversation(fmu: Instance, other: Instance, name: str) -> list:
