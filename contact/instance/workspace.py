@@ -44,10 +44,12 @@ class _UnboundedBlock:
     """Stand-in for a block of memory of unlimited size, used to find the size that a layout needs."""
 
     shape = (0, 0, 0)
-    size = 0
 
-    def __getitem__(self, where: object) -> _UnboundedBlock:
-        return self
+    def __init__(self, size: int = 0) -> None:
+        self.size = size
+
+    def __getitem__(self, where: slice) -> _UnboundedBlock:
+        return _UnboundedBlock(where.stop - where.start)
 
     def reshape(self, *shape: int) -> _UnboundedBlock:
         return self
