@@ -144,9 +144,9 @@ def test_an_answer_under_a_load_has_the_same_bits_whatever_was_solved_before(kin
     ("middle", "amplitude", "yaw", "turns", "most"), [(1e-3, 4e-3, 3e-3, 40.0, 0), (6.2e-3, 1.2e-3, 10e-3, 25.0, 10)]
 )
 def test_the_answer_at_a_height_hardly_depends_on_the_pose_before(middle, amplitude, yaw, turns, most):
-    """Of 1000 poses in a curve none, at the flange 8 differ by more than 1e-4 of mu N from a start from nothing (17 with twice LEFT).
+    """Of 1000 poses in a curve none, at the flange 8 differ by more than 1e-4 of mu N from a start from nothing.
 
-    While two strips at the end of a slender patch could swing unseen these were 38, the largest .003 and not .0003; with twice
+    With twice the limit LEFT these were 17. While two strips at the end of a slender patch could swing unseen these were 38, the largest .003 and not .0003; with twice
     the limit and without the last step 24 and 161, and the largest .0009 and .010.
     """
     pair, apart, pressures = WheelRailPair(Pair(WHEEL, RAIL)), [], []
