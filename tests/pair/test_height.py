@@ -146,8 +146,8 @@ def test_an_answer_under_a_load_has_the_same_bits_whatever_was_solved_before(kin
 def test_the_answer_at_a_height_hardly_depends_on_the_pose_before(middle, amplitude, yaw, turns, most):
     """Of 1000 poses in a curve none, at the flange 8 differ by more than 1e-4 of mu N from a start from nothing.
 
-    With twice the limit LEFT these were 17. While two strips at the end of a slender patch could swing unseen these were 38, the largest .003 and not .0003; with twice
-    the limit and without the last step 24 and 161, and the largest .0009 and .010.
+    With twice the limit LEFT these were 17. While two strips at the end of a slender patch could swing unseen they were 38, the
+    largest .003 and not .0003; with twice that limit and without the last step 24 and 161, the largest .0009 and .010.
     """
     pair, apart, pressures = WheelRailPair(Pair(WHEEL, RAIL)), [], []
     phases = np.linspace(0.0, 1.0, 1000) * turns
