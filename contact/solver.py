@@ -247,10 +247,11 @@ class Solver(OwnsArrays):
         """
         if force is not None and derivatives:
             raise ContactError("derivatives = True does not work with force; solve again with the creepage found")
+        creepage = as_creepage(creepage)
         n, found = self._run(True, separation, creepage, load, approach, (friction, speed), warm, derivatives, force)
         if force is not None:
             vx, vy = (float(self._member[name][0]) for name in ("vx", "vy"))
-            creepage = replace(as_creepage(creepage), longitudinal=vx, lateral=vy)
+            creepage = replace(creepage, longitudinal=vx, lateral=vy)
         if throw:
             require_trustworthy(STATES[found[STATUS]], separation.y, load, approach)
         self._doubt(found, separation.fit_error)

@@ -2,6 +2,7 @@
 
 import math
 
+import numpy as np
 import pytest
 
 import contact
@@ -71,3 +72,13 @@ def test_material_from_a_pair_of_equal_bodies_is_that_body():
     assert pair.contact_modulus == pytest.approx(E / (2 * (1 - nu**2)))
     with pytest.raises(contact.ContactError, match="poisson_ratio"):
         contact.Material(82e9, 0.6)
+
+
+@pytest.mark.parametrize("given", [(1e-3, -5e-4, 0.2), [1e-3, -5e-4, 0.2], np.array([1e-3, -5e-4, 0.2])])
+@pytest.mark.parametrize("options", [{}, {"force": (-5e3, None)}, {"conformal": True}, {"normal": "hertz"}])
+def test_three_numbers_as_creepage_give_the_solution_of_the_creepage(given, options):
+    held = contact.Separation.hertzian(1.1, 0.8)
+    found, wanted = (contact.solve(held, each, load=8e4, **options) for each in (given, contact.Creepage(*given)))
+    assert found.creepage == wanted.creepage
+    assert str(found) == str(wanted)
+    assert found.damage.T_gamma == wanted.damage.T_gamma

@@ -58,7 +58,8 @@ int wr_pair_doubts(const wr_pair_options *o, const wr_pair_input *in) {
            doubt(U_VELOCITY_Y, m->vy) | doubt(U_VELOCITY_Z, m->vz) | doubt(U_VELOCITY_ROLL, m->roll_rate) |
            doubt(U_VELOCITY_YAW, m->yaw_rate) |
            doubt(U_SLIP, fabs(m->vx) > WR_SLOWEST ? 1.0 + m->spin * o->wheel_radius / m->vx : 0.0) |
-           doubt(U_WHEEL_LOAD, under_load ? in->amount : 0.0) | doubt_surface(&in->surface);
+           doubt(U_WHEEL_LOAD, under_load ? in->amount : 0.0) | doubt(U_WHEEL_RADIUS, o->wheel_radius) |
+           doubt_surface(&in->surface);
 }
 
 /* Doubts about an answer with this normal force and, of strips, with this largest change of the contact angle, this share of the

@@ -15,6 +15,7 @@ from contact.damage.usfd import Usfd
 from contact.errors import ContactError, only_with_fields, require_number
 from contact.inputs.material import Material
 from contact.inputs.options import MEMBERS, RADIUS
+from contact.inputs.plausibility import doubt_value
 from contact.kernels.damage.assess import damage_kernel
 from contact.kernels.records import CASE, DAMAGE, DAMAGE_PARAMETERS, RESULT
 from contact.kernels.rows import DamageField, Field, Strip
@@ -180,6 +181,7 @@ def evaluate(
     ContactError
         If the wheel radius is not positive.
     """
+    doubt_value("wheel radius", wheel_radius, "wheel_radius")
     assessed = assess(solution, wheel_radius, parameters)
     number, damage_fields = assessed.damage, assessed.damage_fields
     return Damage(

@@ -54,6 +54,7 @@ class Posed(OwnsArrays):
         self.side: Side = side
         self._mirror = 1.0 if side == "right" else -1.0
         self.nominal_radius = RADIUS.require("nominal_radius", nominal_radius)
+        doubt_value("wheel radius", self.nominal_radius, "nominal_radius")
         self.reference_speed = REFERENCE_SPEED.require("reference_speed", reference_speed)
         self._doubted: set[str] = set()  # names for which there was a PlausibilityWarning
         self.told: set[str] = set()  # for what there was a ModelWarning

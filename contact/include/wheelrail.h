@@ -182,7 +182,7 @@ WR_API int wr_pair_init_surfaces(const wr_pair_options *options, const wr_surfac
 /* Steady rolling of a centred wheelset at this speed [m/s], negative to roll backwards, under a load [N] that the normal forces carry. */
 WR_API int wr_pair_input_default(const wr_pair_options *options, double mu, double speed, double load,
                                  wr_pair_input *input);
-/* As wr_contact_doubts, of pose, speed, spin, load, friction and material.  A spin that does not belong to the speed is one. */
+/* As wr_contact_doubts, of pose, speed, spin, load, radius, friction and material.  A spin that does not belong to the speed is one. */
 WR_API int wr_pair_doubts(const wr_pair_options *options, const wr_pair_input *input);
 WR_API int wr_pair_answer_doubts(const wr_pair_options *options, const wr_pair_answer *answer);
 WR_API int wr_pair_solve(void *memory, const wr_pair_input *input, wr_pair_answer *answer);

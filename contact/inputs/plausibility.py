@@ -52,6 +52,7 @@ USUAL = {
         0.45, "a rolling wheel has less than 0.02; spin is negative when rolling forward, about -forward/radius"
     ),
     "wheel load": Usual(5e6, _LOAD, 1e3),
+    "wheel radius": Usual(0.7, "a railway wheel has 0.15 to 0.65 m; is it the diameter?"),
 }
 
 

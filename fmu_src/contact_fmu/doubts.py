@@ -24,6 +24,7 @@ _ROWS = {
     "velocity.x": "speed",
     "geometry.A": "A",
     "geometry.A0": "A",
+    "wheel.radius": "wheel radius",
     "material.shear_modulus": "shear_modulus",
     "material.pressure_limit": "pressure_limit",
     **{f"pose.{name}": f"pose.{name}" for name in ("y", "roll", "yaw")},

@@ -91,7 +91,7 @@ def test_a_patch_is_doubted_as_in_python(library, seed):
 def test_a_pair_is_doubted_as_in_python(library, seed):
     rng, fired = np.random.default_rng(seed), Counter()
     pair = Pair(library, wheel := profile.s1002(), rail := profile.rail_60e1())
-    profiles, motion = Profiles(wheel, rail), pair.input["motion"]
+    motion = pair.input["motion"]
     for _ in range(100):
         y, roll, yaw = (rng.choice((0.0, 0.5, 2.0), 3) * (0.015, 0.05, 0.05) * rng.choice((-1, 1), 3)).tolist()
         vx, spin = (
@@ -100,16 +100,16 @@ def test_a_pair_is_doubted_as_in_python(library, seed):
         )
         rates = rng.choice((0.0, 0.2, 5.0), 4).tolist()  # y, z, roll, yaw
         height, amount = int(rng.choice((0, 2, 3))), float(rng.choice((0.0, 80.0, 80e3, 8e7)))
-        friction = float(rng.choice((0.3, 35.0)))
+        friction, radius = float(rng.choice((0.3, 35.0))), float(rng.choice((0.1, 0.46, 0.92)))
         motion["y"], motion["roll"], motion["yaw"], motion["vx"], motion["spin"] = y, roll, yaw, vx, spin
         motion["vy"], motion["vz"], motion["roll_rate"], motion["yaw_rate"] = rates
         pair.input["height"], pair.input["amount"], pair.input["surface"]["mu"] = height, amount, friction
 
-        velocity = Velocity(vx, *rates, spin=spin)
+        velocity, pair.options["wheel_radius"] = Velocity(vx, *rates, spin=spin), radius
+        load = amount if height else None
 
-        def doubt(pose=(y, 0.0, roll, yaw), velocity=velocity, load=amount if height else None, friction=friction):
-            profiles._doubted.clear()  # it warns once of each
-            profiles.doubt(Pose(*pose), velocity, load)
+        def doubt(pose=(y, 0.0, roll, yaw), velocity=velocity, load=load, friction=friction, radius=radius):
+            Profiles(wheel, rail, nominal_radius=radius).doubt(Pose(*pose), velocity, load)
             doubt_value("friction", friction)
 
         found = hints(library, library.call("wr_pair_doubts", pair.options, pair.input))

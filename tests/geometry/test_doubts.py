@@ -63,6 +63,16 @@ def test_a_wheel_that_lies_a_millimetre_inside_its_rail_is_doubted(solver):
         assert str(said.message).startswith("N = ")
 
 
+def test_a_diameter_given_as_a_radius_is_doubted():
+    text = "{} = 0.92: a railway wheel has 0.15 to 0.65 m; is it the diameter?"
+    sol = contact.solve(contact.Separation.hertzian(1.1, 0.8), (1e-3, 0.0, 0.0), load=80e3)
+    for entry, name in ((lambda radius: Pair(WHEEL, RAIL, nominal_radius=radius), "nominal_radius"),
+                        (lambda radius: contact.damage.evaluate(sol, radius), "wheel_radius")):  # fmt: skip
+        assert [str(said.message) for said in doubts(entry, 0.92)] == [text.format(name)]
+        assert not doubts(entry, 0.65)
+        assert not doubts(entry, 0.092)  # a roller rig of 1:5
+
+
 ELEMENTS = SurfacePair(WHEEL, RAIL, rows=20, columns=20)
 
 

@@ -129,6 +129,37 @@ def test_a_column_that_counts_the_rows_is_told_and_passed_over(tmp_path):
         assert profile.read(path, columns=(2, 3), **COLUMNS).y.size == WHEEL.y.size
 
 
+def test_a_second_profile_beside_the_first_is_told(tmp_path):
+    path, angles = tmp_path / "wheel.csv", np.degrees(WHEEL.angle)
+    rows = [row.replace(" ", ";") for row in rows_of(WHEEL)]
+    worn = [f"{row.split(';')[0]};{float(row.split(';')[1]) + 0.5}" for row in rows]
+    index = [str(k) for k in range(1, len(rows) + 1)]
+    for columns, second in (
+        ((rows, worn), (3, 4)),
+        ((index, rows, worn), (4, 5)),
+        ((rows, [row.split(";")[1] for row in worn]), (1, 3)),
+        ((rows, [row if k < 400 else ";" for k, row in enumerate(worn)]), (3, 4)),
+        ((["-999;-999", *rows], ["-999;-999", *worn]), (3, 4)),
+    ):
+        path.write_text("\n".join(";".join(row) for row in zip(*columns, strict=True)))
+        with pytest.warns(
+            ProfileWarning, match=rf"columns {second[0]} and {second[1]} may be .*columns=\({second[0]}, {second[1]}\)"
+        ):
+            assert profile.read(path, **COLUMNS).y.size == WHEEL.y.size
+        with warnings.catch_warnings():
+            warnings.filterwarnings("ignore", "file: false rows")
+            assert profile.read(path, columns=second, **COLUMNS).y.size > 390
+    rail = profile.rail_60e1()
+    for shape, angles in ((WHEEL, np.degrees(WHEEL.angle)), (rail, np.degrees(rail.angle))):
+        more = [f"{angle:.4f};{k % 7}" for k, angle in enumerate(angles)]
+        path.write_text(
+            "\n".join(f"{row.replace(' ', ';')};{end}" for row, end in zip(rows_of(shape), more, strict=True))
+        )
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")
+            profile.read(path, kind=shape.kind, unit="mm", side="right")
+
+
 def test_numbers_above_words_are_a_heading_that_is_told(tmp_path):
     path = tmp_path / "wheel.csv"
     path.write_text("12;11\n3;4\nprofile\n" + "\n".join(rows_of(WHEEL)).replace(" ", ";"))

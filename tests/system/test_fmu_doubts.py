@@ -43,9 +43,10 @@ def test_the_status_of_the_step_is_a_warning_and_the_next_one_is_ok(opened):
 def test_a_contact_doubts_its_own_values(opened):
     fmu = opened("EllipticContact")
     fmu.update({"load.normal_force": 80.0, "creepage.longitudinal": 0.5, "creepage.spin": 30.0, "speed": 200.0})
+    fmu.update({"wheel.radius": 0.92})
     fmu.initialize().step()
     named = [text.split(" = ")[0] for text in warned(fmu)]
-    assert sorted(named) == ["creepage.longitudinal", "creepage.spin", "load.normal_force", "speed"]
+    assert sorted(named) == ["creepage.longitudinal", "creepage.spin", "load.normal_force", "speed", "wheel.radius"]
 
 
 def test_what_is_not_used_or_zero_is_not_doubted(opened):

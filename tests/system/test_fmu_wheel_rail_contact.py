@@ -9,6 +9,7 @@ import pytest
 from contact_case import NAME
 from fmu_instance import Instance
 
+from contact.version import __version__
 from contact_fmu.catalogue import models
 from contact_fmu.python.packaging import build
 from contact_fmu.python.runtime import DECLARED
@@ -36,14 +37,22 @@ def test_two_builds_and_two_versions_live_in_one_process(open_fmu, tmp_path):
     small.fmu.freeInstance()
 
 
-def test_an_fmu_of_another_version_is_refused_with_a_reason(fmus, tmp_path):
+@pytest.mark.parametrize(
+    ("options", "version", "told"),
+    [
+        ({"points": 41}, ("0.1.2",), "wheelrail-contact 0.1.2, "),
+        ({"samples": 41}, ("9.8.7",), "wheelrail-contact 9.8.7, "),
+        ({"points": 41}, (), "of an earlier version, "),
+    ],
+)
+def test_an_fmu_of_another_version_is_refused_with_both_versions(fmus, tmp_path, options, version, told):
     fmpy.extract(str(fmus / f"{NAME}.fmu"), str(tmp_path / "old"))
-    resource = tmp_path / "old" / "resources" / DECLARED
-    resource.write_text(resource.read_text().replace("'{", "'{old-"))
+    (tmp_path / "old" / "resources" / DECLARED).write_text(repr(("contact", options, "{old}", *version)))
     log: list = []
     with pytest.raises(Exception, match="Failed to instantiate"):
         Instance(tmp_path / "old", log=log)
-    assert "built with another version of wheelrail-contact" in log[0][1]
+    assert told in log[0][1]
+    assert f"not what the installed {__version__} says" in log[0][1]
 
 
 #: A host in Python that makes an instance.

@@ -13,13 +13,14 @@ from ..native import components, systems
 from ..native.component import Component
 from ..native.table import NAME, content
 
-#: File in resources/ that says what the model is: a function of `native.components`, its arguments, and the guid of the FMU.
+#: File in resources/ that says what the model is: a function of `native.components`, its arguments, the guid of the FMU, and
+#: the version of this package.
 DECLARED = "model.txt"
 
 
 def declared(name: str, options: dict[str, Any], guid: str) -> str:
     """Return the content of this file."""
-    return repr((name, options, guid))
+    return repr((name, options, guid, __version__))
 
 
 def library(folder: bytes) -> bytes:
@@ -39,14 +40,19 @@ def _library(folder: Path) -> Path:
         If the FMU was built with another version of this package, or if its resources cannot be read.
     """
     try:
-        name, model = _model((folder / DECLARED).read_text(encoding="utf-8"))
-        is_ours = (folder / NAME).read_bytes() == model
+        text, given = (folder / DECLARED).read_text(encoding="utf-8"), (folder / NAME).read_bytes()
     except OSError as error:
         raise RuntimeError(f"resource {error.filename} cannot be read: {error.strerror}") from None
-    if not is_ours:
+    name, _, _, *version = ast.literal_eval(text)  # at first without a version
+    try:
+        name, model = _model(text)
+    except (AttributeError, TypeError, ValueError):  # of a model or an option that this version does not have
+        model = b""
+    if given != model:
+        other = version[0] if version else "of an earlier version"
         raise RuntimeError(
-            f"this FMU {name} was built with another version of wheelrail-contact than the installed "
-            f"{__version__}: install that version, or build the FMU anew"
+            f"this FMU {name} was built with wheelrail-contact {other}, and what it says of its model is not what the "
+            f"installed {__version__} says: install that version, or build the FMU anew"
         )
     return systems.of_this_machine()
 
@@ -54,6 +60,6 @@ def _library(folder: Path) -> Path:
 @cache
 def _model(text: str) -> tuple[str, bytes]:
     """Return the name of an FMU, and what the installed package writes into its file of the model."""
-    name, options, guid = ast.literal_eval(text)
-    component: Component = getattr(components, name)(**options)
+    function, options, guid, *_ = ast.literal_eval(text)
+    component: Component = getattr(components, function)(**options)
     return component.table.name, content(component, guid)
