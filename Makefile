@@ -49,7 +49,7 @@ coverage: $(READY) ## run the quick tests and print which lines of the package n
 
 soak: $(READY)   ## check memory over a million steps of every native FMU, wrong calls, damaged files, vehicles under Wine (minutes)
 	SOAK=1 $(BIN)/python -m pytest tests/system/test_native_host.py tests/system/test_native_sources.py tests/test_readers.py \
-		tests/test_damaged_files.py -k "leave_memory or wrong_call or hard or damaged or random_calls or any_order or sanitizers or ehicle"
+		tests/test_damaged_files.py -k "leave_memory or wrong_call or hard or damaged or random_calls or any_order or sanitizers or ehicle or option_arm"
 
 KERNELS := tests/normal tests/tangential tests/pair tests/geometry tests/damage tests/test_properties.py tests/test_every_method.py tests/test_robustness.py
 bounds: $(READY) ## run the tests of the kernels with numba's check of array bounds (twenty minutes)

@@ -11,6 +11,7 @@ from contact.pair import RollerRig, WheelRailPair
 ELLIPSE, CREEPAGE = contact.Separation.hertzian(1.0, 2.0), contact.Creepage()
 WHEEL, RAIL = profile.s1002(), profile.rail_60e1()
 PAIR, LAW = Pair(WHEEL, RAIL), Friction(0.4, 0.1, half_speed=0.05, law="exponential")
+REST = Pose()
 HALF = {"normal": "halfspace", "tangential": "halfspace"}
 
 
@@ -18,8 +19,8 @@ def solve(separation=ELLIPSE, creepage=CREEPAGE, **given):
     return contact.solve(separation, creepage, **given)
 
 
-def rolled(**given):
-    return WheelRailPair(PAIR).solve(Pose(), **{"load": 8e4, **given})
+def rolled(pose=REST, **given):
+    return WheelRailPair(PAIR).solve(pose, **{"load": 8e4, **given})
 
 
 def on_rollers(velocity=1.0, **given):

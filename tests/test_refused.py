@@ -14,7 +14,7 @@ from contact.geometry.surfaces import SurfacePair
 from contact.geometry.wheelset import Irregularity, Pair, Pose, Velocity
 from contact.inputs.options import MEMBERS, Real, Whole
 from contact.pair import ElasticRail, WheelRailPair
-from tests.doors import ELLIPSE, RAIL, WHEEL, law, rolled, solve, steel
+from tests.doors import ELLIPSE, PAIR, RAIL, WHEEL, law, rolled, solve, steel
 
 
 def on_surfaces(**given):
@@ -41,6 +41,7 @@ DOORS: dict[str, list[Door]] = {
         (lambda **given: solve(**{"load": 1.0, **given}), "", {"speed": "speed", "load": "amount", "friction": "mu"}),
         (contact.Solver, "", {"speed": "speed", "friction": "mu", "max_iterations": "max_iterations"}),
         (Friction, "friction.", {"static": "mu"}),
+        (rolled, "", {"friction": "mu"}),
         (law, "friction.", {name: name for name in OF_LAW} | {"hot_factor": "drop", "temperature_range": "warm_range"}),
         (steel, "", {"shear_modulus": "G", "poisson_ratio": "nu", "pressure_limit": "pressure_limit"}),
         (contact.Creepage, "creepage.", {"longitudinal": "vx", "lateral": "vy", "spin": "phi"}),
@@ -49,6 +50,7 @@ DOORS: dict[str, list[Door]] = {
     "contact_options": [
         (contact.Solver, "", {"n_strips": "n_strips", "n_elements": "n_elements", "max_iterations": "max_iterations"}),
         (lambda **given: solve(load=1.0, **given), "", {"n_strips": "n_strips", "n_elements": "n_elements"}),
+        (lambda **given: WheelRailPair(PAIR, **given), "", {"n_strips": "n_strips", "n_elements": "n_elements"}),
         (steel, "", same("contact_options", "n_strips", "n_elements", "max_iterations", "conformal")),
     ],
     "pair_options": [

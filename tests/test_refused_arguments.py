@@ -13,7 +13,6 @@ from contact import damage
 from contact.accumulation import Section
 from contact.arrays import as_array, require_numbers
 from contact.errors import require_integer
-from contact.friction import Friction
 from contact.geometry import conicity, contact_points, profile
 from contact.geometry.surfaces import Flat, Polygon, RailSurface, SurfacePair, Wave, WheelSurface
 from contact.geometry.wheelset import Irregularity, Pair, Pose, Velocity, contacts
@@ -45,11 +44,16 @@ POINTS = np.stack((ARC.y, ARC.z), axis=1)
 UNDER = {"rail_origin": (0.75, 0.0)}
 ON_ARC = {"gauge": 1.5, "gauge_point": 1e-3}
 CURVE = Curve(start=0.0, radius=500.0, length=40.0)
+LAYER = contact.ThirdBody()
 MASKED = np.ma.masked_array([1.0, 2.0, 3.0], mask=[0, 0, 1])
 
 
 def stressed(**given):
     return at(**{"load": SQUARE, "x": 0.0, "y": 0.0, "z": 0.0, **given})
+
+
+def forces(**given):
+    return contact.forces(ELLIPSE, CREEPAGE, **given)
 
 
 def points(kind="rail", y=(0, 1, 2, 3), z=(0, 0, 0, 0)):
@@ -92,16 +96,10 @@ REFUSED: list[tuple[Callable[[], Any], str]] = [
     (lambda: solve(load=1.0, force=(1.0, 2.0, 3.0)), "is not a number or a pair"),
     (lambda: solve(load=1.0, force=(1.0, math.inf)), "force = inf is not finite"),
     (lambda: solve(load=1.0, material=steel(pressure_limit=1e9), **HALF), "normal = 'halfspace' is elastic"),
-    (
-        lambda: solve(load=1.0, friction=Friction(0.3, slope=0.5), **HALF),
-        r"friction.slope = 0.5: tangential = 'halfspace'",
-    ),
-    (lambda: solve(load=1.0, layer=contact.ThirdBody(), tangential="fastsim"), "'fastsim' has no third body"),
+    (lambda: solve(load=1.0, friction=law(slope=0.5), **HALF), r"friction.slope = 0.5: tangential = 'halfspace'"),
+    (lambda: solve(load=1.0, layer=LAYER, tangential="fastsim"), "'fastsim' has no third body"),
     (lambda: solve(load=1.0, layer=3.0, **HALF), r"layer = 3.0 is not a contact.ThirdBody"),
-    (
-        lambda: solve(load=1.0, layer=contact.ThirdBody(), friction=replace(LAW, velocity="local"), **HALF),
-        "must not depend on local slip",
-    ),
+    (lambda: solve(load=1.0, layer=LAYER, friction=replace(LAW, velocity="local"), **HALF), "not depend on local slip"),
     (lambda: solve(load=1.0, normal="halfspace", tangential="fastrip"), "does not work with normal = 'halfspace'"),
     (lambda: solve(load=1.0, spacing=0.0, **HALF), "spacing = 0 is outside"),
     (lambda: solve(load=1.0, spacing=(1e-3, 1e-3, 1e-3), **HALF), "pair of numbers"),
@@ -114,10 +112,7 @@ REFUSED: list[tuple[Callable[[], Any], str]] = [
     (lambda: contact.Separation([0, 1, 2], [0, 0, 0], [1, 0, 1]), r"A\[1\] = 0"),
     (lambda: contact.Separation([0, 1, 2], [0, 0, 0], "steep"), "A = 'steep' is not a number"),
     (lambda: contact.Separation([0, 1, 2], [0, 0, 0], 1.0, [0, math.inf, 0]), r"x_c\[1\] = inf"),
-    (
-        lambda: contact.Separation(ELLIPSE.y, ELLIPSE.g, 1.0, tilt=1.1e3),
-        r"is outside the allowed range \[-1000, 1000\]",
-    ),
+    (lambda: contact.Separation(ELLIPSE.y, ELLIPSE.g, 1.0, tilt=1.1e3), r"outside the allowed range \[-1000, 1000\]"),
     (lambda: contact.Creepage("fast"), "creepage"),
     (lambda: contact.hertz(0.0, 1.0, load=1.0), "A = 0"),
     (lambda: contact.hertz(1.0, -1.0, load=1.0), "B = -1"),
@@ -125,29 +120,16 @@ REFUSED: list[tuple[Callable[[], Any], str]] = [
     (lambda: contact.hertz(1.0, 1.0, approach=-1.0), "approach = -1"),
     (lambda: contact.hertz(1.0, 1.0), "exactly one"),
     (lambda: contact.hertz(1.0, 1.0, load=1.0, approach=1.0), "exactly one"),
-    (
-        lambda: contact.forces(ELLIPSE, CREEPAGE, load=[1.0, -2.0]),
-        r"load\[1\] = -2 is outside the allowed range \[0, 1e\+15\]",
-    ),
-    (lambda: contact.forces(ELLIPSE, CREEPAGE, load=[1.0, math.nan]), r"load\[1\] = nan"),
-    (
-        lambda: contact.forces(ELLIPSE, CREEPAGE, load=1e300),
-        r"load = 1e\+300 is outside the allowed range \[0, 1e\+15\]",
-    ),
-    (lambda: solve(load=1e300), r"load = 1e\+300 is outside"),
+    (lambda: forces(load=[1.0, -2.0]), r"load\[1\] = -2 is outside the allowed range \[0, 1e\+15\]"),
+    (lambda: forces(load=[1.0, math.nan]), r"load\[1\] = nan"),
+    (lambda: forces(load=1e300), r"load = 1e\+300 is outside the allowed range \[0, 1e\+15\]"),
     (lambda: solve(approach=1e300), r"approach = 1e\+300 is outside the allowed range \[-1e\+15, 1e\+15\]"),
     (lambda: solve(load=1e200, **HALF), r"load = 1e\+200 is outside"),
-    (lambda: contact.forces(ELLIPSE, CREEPAGE, load=1.0, friction=[[0.1], [-1.0]]), r"friction\[1, 0\] = -1"),
-    (
-        lambda: contact.forces(ELLIPSE, CREEPAGE, load=[1.0, 2.0], friction=[0.1, 0.2, 0.3]),
-        r"do not broadcast: load \(2,\)",
-    ),
-    (lambda: contact.forces(ELLIPSE, CREEPAGE), "exactly one"),
+    (lambda: forces(load=1.0, friction=[[0.1], [-1.0]]), r"friction\[1, 0\] = -1"),
+    (lambda: forces(load=[1.0, 2.0], friction=[0.1, 0.2, 0.3]), r"do not broadcast: load \(2,\)"),
+    (lambda: forces(), "exactly one"),
     (lambda: contact.Solver().forces(None, CREEPAGE, load=1.0), "separation = None is not a contact.Separation"),
-    (
-        lambda: contact.Solver().forces(ELLIPSE, (1e-3, 0.0), load=1.0),
-        r"creepage = .* is neither a contact.Creep",
-    ),
+    (lambda: contact.Solver().forces(ELLIPSE, (1e-3, 0.0), load=1.0), r"creepage = .* is neither a contact.Creep"),
     (lambda: contact.Solver(normal="analin"), "normal = 'analin' is not a registered method, did you mean 'analyn'"),
     (lambda: contact.Solver(normal="halfspace"), "normal = 'halfspace' is not offered here, only by contact.solve"),
     (lambda: contact.Solver(tangential="fastsim_knothe"), "tangential = 'fastsim_knothe' is not offered here, only by"),
@@ -198,31 +180,17 @@ REFUSED: list[tuple[Callable[[], Any], str]] = [
     (lambda: WheelRailPair(PAIR, material=2e11), r"material = .* is not a contact.inputs.material.Material"),
     (lambda: WheelRailPair(PAIR, damage="archard"), "damage = 'archard' is no"),
     (lambda: WheelRailPair(PAIR, normal="none"), "normal = 'none' is not a registered method"),
-    (lambda: WheelRailPair(PAIR, n_strips=3), "n_strips = 3 is not"),
-    (
-        lambda: WheelRailPair(PAIR).solve(Pose(), 20.0, load=8e4),
-        r"velocity = 20.0 is not a contact.geometry.wheelset.Velocity",
-    ),
-    (
-        lambda: WheelRailPair(PAIR).solve(Pose(y=1.0), load=8e4),
-        "pose.y = 1: the right wheel and rail profiles do not overlap",
-    ),
-    (
-        lambda: WheelRailPair(PAIR).solve(Pose(z=0.01)),
-        "pose.z = 0.01: the right wheel lies more than 0.005 m inside its rail",
-    ),
+    (lambda: rolled(velocity=20.0), r"velocity = 20.0 is not a contact.geometry.wheelset.Velocity"),
+    (lambda: rolled(Pose(y=1.0)), "pose.y = 1: the right wheel and rail profiles do not overlap"),
+    (lambda: rolled(Pose(z=0.01), load=None), "pose.z = 0.01: the right wheel lies more than 0.005 m inside its rail"),
     (lambda: rolled(penetration=1e-5), "exclude each other"),
     (lambda: rolled(vertical=1), "vertical = 1 excludes load = 80000.0"),
     (lambda: rolled(load=1e12), r"load = 1e\+12: no z was found"),
-    (lambda: rolled(friction=math.nan), "friction = nan is outside"),
     (lambda: rolled(offset=0.1), r"offset = 0.1 is not a contact.geometry.flexible.WheelOffset"),
     (lambda: rolled(load=None, vertical=7e4, force=1.0, torque=1.0), "exactly one of force and torque"),
     (lambda: rolled(load=None, vertical=7e4, force=math.nan), "force = nan is not finite"),
     (lambda: rolled(load=None, vertical=7e4, torque="much"), "torque = 'much' is not a number"),
-    (
-        lambda: WheelRailPair(PAIR).solve(Pose(), Velocity(0.0), force=1.0, vertical=7e4),
-        r"velocity.forward = 0 is outside",
-    ),
+    (lambda: rolled(load=None, velocity=Velocity(0.0), force=1.0, vertical=7e4), r"velocity.forward = 0 is outside"),
     (lambda: FrictionMemory(LAW, 0.0), "distance = 0 is outside"),
     (lambda: FrictionMemory(LAW, 1.0, -1.0), "least = -1 is outside"),
     (lambda: FrictionMemory(0.3, 1.0), "friction = 0.3 is not a contact.friction.Friction"),
@@ -255,10 +223,7 @@ REFUSED: list[tuple[Callable[[], Any], str]] = [
     (lambda: stressed(poisson_ratio=0.6), "poisson_ratio = 0.6 is outside the allowed range"),
     (lambda: stressed(load=3.0), "neither a contact.Solution nor"),
     (lambda: SurfaceLoad([0.0, 1.0, 3.0], [0.0, 1.0], np.ones((2, 3))), "does not increase in equal steps"),
-    (
-        lambda: SurfaceLoad([0.0, 1.0], [0.0, 1.0], np.ones((2, 2)), np.ones(2)),
-        r"qx has shape \(2,\); \(2, 2\) is needed",
-    ),
+    (lambda: SurfaceLoad([0.0, 1.0], [0.0, 1.0], np.ones((2, 2)), np.ones(2)), r"qx has shape \(2,\); \(2, 2\) is"),
     (lambda: SurfaceLoad([0.0, 1.0], [0.0, 1.0], [[0.0, math.nan], [1.0, 1.0]]), r"p\[0, 1\] = nan"),
     (lambda: largest(solve(load=0.0)), "NO_CONTACT: there is no contact"),
     (lambda: largest(solve(load=8e4, tangential="polach")), "gives forces only"),

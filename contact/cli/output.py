@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import errno
 import functools
 import re
 import warnings
@@ -52,6 +53,10 @@ def reported(command: Command) -> Command:
                 command(*args, **kwargs)
         except ContactError as error:
             stop(in_options(str(error), kwargs), BAD_INPUT)
+        except OSError as error:
+            if error.errno == errno.EPIPE:  # the reader of a pipe has had enough, as in `contact profiles | head`
+                raise
+            stop(f"{error.filename}: {error.strerror}" if error.filename else str(error), BAD_INPUT)
         except ImportError as error:
             if "pip install 'wheelrail-contact[" not in str(error):
                 raise

@@ -47,45 +47,33 @@ def test_the_committed_header_is_the_generated_one():
     assert PATH.read_text() == header()
 
 
-@pytest.mark.parametrize(("normal", "tangential"), [("strip_halfspace", "fastrip_mapped"), ("analyn", "fastrip"),
-                                                ("kik_piotrowski", "fastsim"), ("hertz", "polach")])  # fmt: skip
-def test_a_patch_has_the_bits_of_the_solver(library, normal, tangential):
-    known = contact.methods().batched
-    ids = int(known.normal[normal].id), int(known.tangential[tangential].id)
-    patch = Patch(library, normal=ids[0], tangential=ids[1])
-    solver = contact.Solver(normal=normal, tangential=tangential)
-    separation, result = patch.separation(SEPARATION), np.zeros(1, RESULT)
-    for step in range(4):
-        creepage = contact.Creepage(1e-3, 5e-4 * step, 0.2)
-        set_case(patch, creepage, 80e3 + 1e3 * step)
-        want = solver.solve(SEPARATION, creepage, load=80e3 + 1e3 * step, warm=step > 0)
-        library.need("wr_contact_solve", patch.memory, separation, patch.case, result)
-        equal(result, want)
-        library.need("wr_contact_accept", patch.memory)
-
-
 @pytest.mark.parametrize(
     ("which", "force", "status"),
     [
+        (0, None, Status.OK),
         (1, (-6e3, None), Status.OK),
         (2, (None, 4e3), Status.OK),
         (3, (-6e3, 4e3), Status.OK),
         (3, (-3e4, 2e4), Status.UNREACHABLE),
     ],
 )
-@pytest.mark.parametrize(("normal", "tangential"), [("strip_halfspace", "fastrip_mapped"), ("hertz", "polach")])
-def test_a_patch_under_a_given_force_has_the_bits_of_the_solver(library, normal, tangential, which, force, status):
+@pytest.mark.parametrize(("normal", "tangential"), [("strip_halfspace", "fastrip_mapped"), ("analyn", "fastrip"),
+                                                ("kik_piotrowski", "fastsim"), ("hertz", "polach")])  # fmt: skip
+def test_a_patch_has_the_bits_of_the_solver(library, normal, tangential, which, force, status):
+    """Under creepages, and under forces along x, y and both; each step starts from the last one."""
     known = contact.methods().batched
-    ids = int(known.normal[normal].id), int(known.tangential[tangential].id)
-    patch = Patch(library, normal=ids[0], tangential=ids[1])
+    patch = Patch(library, normal=int(known.normal[normal].id), tangential=int(known.tangential[tangential].id))
     solver = contact.Solver(normal=normal, tangential=tangential)
     separation, result = patch.separation(SEPARATION), np.zeros(1, RESULT)
-    numbers = [ctypes.c_double(np.nan if f is None else f) for f in force]
-    for step in range(3):  # the first one from nothing
-        set_case(patch, CREEPAGE, 80e3 + 1e3 * step)
-        want = solver.solve(SEPARATION, CREEPAGE, load=80e3 + 1e3 * step, force=force, warm=step > 0)
-        name = "wr_contact_solve_force"
-        code = library.need(name, patch.memory, separation, ctypes.c_int64(which), *numbers, patch.case, result)
+    name, more = "wr_contact_solve", ()
+    if which:
+        numbers = [ctypes.c_double(np.nan if f is None else f) for f in force]
+        name, more = "wr_contact_solve_force", (ctypes.c_int64(which), *numbers)
+    for step in range(3):
+        creepage, load = contact.Creepage(1e-3, 5e-4 * (step + 1), 0.2), 80e3 + 1e3 * step
+        set_case(patch, creepage, load)
+        want = solver.solve(SEPARATION, creepage, load=load, force=force, warm=step > 0)
+        code = library.need(name, patch.memory, separation, *more, patch.case, result)
         equal(result, want)
         assert (patch.case["vx"][0], patch.case["vy"][0]) == (want.creepage.longitudinal, want.creepage.lateral)
         assert want.status is status

@@ -90,12 +90,6 @@ def test_the_contact_angle_has_one_sign_on_both_sides_and_in_all_commands():
     assert "-" not in shown
 
 
-def test_an_inclination_may_be_a_ratio_on_the_command_line():
-    by_ratio, by_number = (call("solve", "--inclination", value, "--json").stdout for value in ("1/20", "0.05"))
-    assert json.loads(by_ratio)["patches"] == json.loads(by_number)["patches"]
-    assert "neither a number nor a ratio" in call("solve", "--inclination", "steep", code=2).stderr
-
-
 def test_check_names_faults_and_draws_them(tmp_path):
     wheel = profile.s1002()
     z = wheel.z.copy()

@@ -60,12 +60,6 @@ def test_a_law_without_fields_shows_its_forces(tmp_path):
     assert "'polach' gives forces only" in " ".join(refused.stderr.split())
 
 
-def test_both_wheels_are_shown_side_by_side():
-    output = call("solve", "--side", "both", "--y", 1e-3).output
-    assert "left 1" in output
-    assert "right 1" in output
-
-
 def test_no_contact_is_a_valid_result():
     assert "no contact" in call("solve", "--penetration", 0.0).output
     answer = json.loads(call("solve", "--curvatures", 1.0, 1.0, "--penetration", -1e-5, "--json").stdout)

@@ -10,10 +10,8 @@ from contact.friction import Friction
 from contact.inputs.material import Thermal
 from contact_fmu import starts
 from contact_fmu.catalogue import models, vehicles
-from contact_fmu.native.table import content
 from contact_fmu.tables import open_vehicle, vehicle
 from contact_fmu.tables.wheel_rail_contact import POINTS
-from contact_fmu.variables import Causality
 from contact_models.runs import scenario
 from contact_models.runs.scenario import Methods
 
@@ -110,13 +108,3 @@ def test_other_constants_of_damage_are_told(tmp_path):
     assert starts.left_out(scenario.read(path)) == []
     path.write_text(HEAD.format("manchester") + "[damage]\nrail_wear = 2.0\n")
     assert "damage" in starts.left_out(scenario.read(path))[0]
-
-
-def test_the_binary_has_the_same_starts_as_the_description(tmp_path):
-    path = tmp_path / "s.toml"
-    path.write_text(HEAD.format("manchester") + "friction = 0.35\n")
-    for model in vehicles(path):
-        component = model.component()
-        given = [s.first for s in component.table.scalars if s.row.causality in (Causality.INPUT, Causality.PARAMETER)]
-        assert {0.35, 20.0} <= set(given)
-        assert content(component, "{guid}")

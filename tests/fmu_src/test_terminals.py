@@ -36,8 +36,8 @@ def test_terminals_that_are_connected_have_the_same_members():
     (wheels,) = of_table(TABLES["Wheelset"])
     pair = {row.element("") for row in TABLES["WheelRailPair"].rows}
     assert {"pose.y", "velocity.spin", "force.z", "moment.x"} <= set(wheels.members) <= pair
-    (contact,) = of_table(TABLES["WheelRailContact"])
-    assert {"geometry.g", "load.normal_force", "force.x"} <= set(contact.members)
+    (contact,), (small,) = (of_table(TABLES[name]) for name in ("WheelRailContact", "EllipticContact"))
+    assert {"geometry.g", "load.normal_force", "force.x"} <= set(contact.members) > set(small.members)
 
 
 def test_a_pair_has_terminals_for_its_wheelset_its_rail_and_its_patches():

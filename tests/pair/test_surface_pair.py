@@ -67,14 +67,13 @@ def test_loads_are_carried_and_power_is_what_the_forces_do():
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("load", [300.0, 1e3])
-def test_a_light_wheel_stands_on_the_sharp_end_of_a_flat(load):
+def test_a_light_wheel_stands_on_the_sharp_end_of_a_flat():
     """The overlap is a few tenths of a millimetre long there, and the load is carried at every angle."""
     wheel = WheelSurface.constant(WHEEL, Flat(0.06, R0, shape="chord"))
     pair = HalfspacePair(SurfacePair(wheel, profile.rail_60e1(inclination=1 / 40), rows=20, columns=20))
     for rotation in (0.004, 0.01, 0.02, 0.03, 0.04, 0.06):
-        found = pair.solve(Pose(), FREE, rotation=rotation, load=load, friction=0.0)
-        assert pytest.approx(load, rel=1e-3) == found.Q
+        found = pair.solve(Pose(), FREE, rotation=rotation, load=300.0, friction=0.0)
+        assert pytest.approx(300.0, rel=1e-3) == found.Q
         assert found.status is Status.OK or found.status is Status.SATURATED
 
 

@@ -132,17 +132,6 @@ def test_a_saved_state_continues_to_the_same_bits(vehicle):
         goes_on(fmu, other, drive)
 
 
-def test_totals_do_not_depend_on_the_pace(vehicle):
-    found = []
-    for pace in (1, 4):
-        fmu = vehicle(replace(FAST, pace=pace))
-        fmu.step(h=400 * STEP)
-        found.append(totals(fmu))
-    each, paced = found
-    assert (each[:, 0] > 0.0).all()
-    assert np.abs(paced / each - 1.0).max() < 0.01
-
-
 def test_the_end_of_the_track_is_no_step(vehicle):
     """The track of the scenario ends at 240 m; 40 m more are kept for the bodies ahead."""
     fmu = vehicle(start=239.9)

@@ -3,7 +3,6 @@
 import re
 import subprocess
 from pathlib import Path
-from xml.etree import ElementTree
 from zipfile import ZipFile
 
 import fmpy
@@ -124,26 +123,16 @@ def test_no_path_of_the_build_machine_is_in_the_file(native_folder):
 
 
 def test_importers_find_pages_pictures_and_terminals(native):
-    """Tools show documentation/index.html and model.png, in FMI 3.0 the icon, and connect terminals of one kind at once."""
-    members = {}
+    """Tools show documentation/index.html and model.png, in FMI 3.0 the icon. `test_terminals.py` has the terminals."""
     for path in native.parent.rglob("*.fmu"):
         with ZipFile(path) as archive:
-            names, name = set(archive.namelist()), path.stem
             page = archive.read("documentation/index.html").decode()
-            description = ElementTree.fromstring(archive.read("modelDescription.xml"))
             assert page.count("<tr>") > 30
             assert "<code>" not in page
             icon = "terminalsAndIcons/icon.png" if path.parent.name == "fmi3" else "model.png"
             assert archive.read(icon).startswith(b"\x89PNG")
-            if path.parent.name == "fmi3" and "terminalsAndIcons/terminalsAndIcons.xml" in names:
-                root = ElementTree.fromstring(archive.read("terminalsAndIcons/terminalsAndIcons.xml"))
-                variables = {v.get("name") for v in description.find("ModelVariables")}
-                for terminal in root.iter("Terminal"):
-                    assert {m.get("variableName") for m in terminal} <= variables
-                    members[name, terminal.get("name")] = [m.get("memberName") for m in terminal]
-    of_pair = {member for (name, _), row in members.items() if name == "WheelRailPair" for member in row}
-    assert set(members["Wheelset", "wheels"]) - of_pair == {"friction.coefficient"}
-    assert set(members["EllipticContact", "contact"]) < set(members["WheelRailContact", "contact"])
+            if path.parent.name == "fmi3":
+                assert "<Terminal " in archive.read("terminalsAndIcons/terminalsAndIcons.xml").decode()
 
 
 def test_handy_units_are_offered(native):

@@ -1,17 +1,17 @@
 """The native `WheelRailSurfaces`: the solver's results over sweeps, exchange of surfaces, and resources that are refused."""
 
 import shutil
-import subprocess
-import sys
 from functools import cache
 from pathlib import Path
 
 import fmpy
 import numpy as np
 import pytest
+import typer
 from fmpy.fmi1 import FMICallException
 from fmu_instance import DISCARD, Instance, answered_extremes, recovers
 from pair_case import METHODS, R0, expected, scale, solved
+from typer.testing import CliRunner
 
 from contact.errors import ContactError
 from contact.geometry import profile
@@ -22,7 +22,6 @@ from contact_fmu import profiles, resources, surfaces
 from contact_fmu.tables.wheel_rail_surfaces import RAIL, WHEEL
 from examples.crossing.crossing import crossing
 
-ROOT = Path(__file__).parents[2]
 NAME = "WheelRailSurfaces"
 S1002, UIC60, SPEED = profile.s1002(), profile.rail_60e1(), 20.0
 
@@ -225,15 +224,17 @@ def test_extreme_inputs_give_finite_outputs_or_none(open_fmu):
     assert answered_extremes(fmu, 100, chosen) > 10
 
 
-def command(path: Path, *words: object) -> subprocess.CompletedProcess:
-    words = [sys.executable, "-m", "contact_fmu.surfaces", path, *words]
-    return subprocess.run([str(word) for word in words], cwd=ROOT, capture_output=True, text=True)
+def command(path: Path, *words: object):
+    """Call what `python -m contact_fmu.surfaces` does."""
+    app = typer.Typer()
+    app.command()(surfaces.replace)
+    return CliRunner().invoke(app, [str(word) for word in (path, *words)])
 
 
 def test_the_command_replaces_surfaces_in_a_finished_fmu(native_surfaces, tmp_path):
     path = Path(shutil.copy(native_surfaces[0], tmp_path))
     done = command(path, "--wheel", "S1002", "--flat", 0.06, "--flat-depth", 5e-4, "--rail", "54E4")
-    assert done.returncode == 0, done.stderr
+    assert done.exit_code == 0, done.stderr
     flat = WheelSurface.constant(profile.named("S1002"), Flat(0.06, depth=5e-4))
     wanted = surfaces.of_pair(SurfacePair(flat, profile.named("54E4")))
     folder = Path(fmpy.extract(str(path), str(tmp_path / "fmu"))) / "resources"
@@ -253,7 +254,7 @@ def test_the_command_replaces_surfaces_in_a_finished_fmu(native_surfaces, tmp_pa
 def test_the_command_refuses_by_name(native_surfaces, tmp_path, words, message):
     path = Path(shutil.copy(native_surfaces[0], tmp_path))
     done = command(path, *words)
-    assert done.returncode == 2
+    assert done.exit_code == 2
     assert message in done.stderr
     assert path.read_bytes() == native_surfaces[0].read_bytes()
 
@@ -264,11 +265,11 @@ def test_a_rail_of_slices_is_read_with_its_place(native_surfaces, tmp_path):
         (tmp_path / f"{name}.txt").write_text("".join(f"{y} {y**2 / 600.0 + height}\n" for y in range(-30, 31, 2)))
     slices.write_text("0.0 1.0\n2\n0 0 0\n1\n0.0 'low.txt'\n400.0 'high.txt'\n")
     done = command(path, "--rail", slices, "--origin", 0.75, 1e-3)
-    assert done.returncode == 0, done.stderr
+    assert done.exit_code == 0, done.stderr
     numbers = numbers_of((Path(fmpy.extract(str(path), str(tmp_path / "fmu"))) / "resources" / RAIL).read_bytes())
     assert numbers[[0, 3, 4]].tolist() == [2.0, 0.75, 1e-3]
     done = command(path, "--rail", slices)
-    assert done.returncode == 2
+    assert done.exit_code == 2
     assert "rail_origin = None" in done.stderr
 
 
