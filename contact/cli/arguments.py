@@ -51,8 +51,11 @@ class Reading(ProfileFile):
     inclination: opt.Inclination = None
     profile_rotation: opt.Rotation = (0.0, 0.0)
 
-    def load(self, name: str, kind: profile.Kind) -> profile.Profile:
-        """Return the profile with this name or in this file."""
+    def load(self, name: str, kind: profile.Kind, *others: str | None) -> profile.Profile:
+        """Return the profile with this name or in this file. `others` are names that the options are for, too."""
+        self._require_file(
+            name, *others, *(getattr(self, of, None) for of in ("wheel", "rail", "left_wheel", "left_rail"))
+        )
         rotation = self.profile_rotation[0 if kind == "wheel" else 1]
         found = profile.load(name, kind, inclination=self.inclination, **self.given | {"rotation": rotation})
         if kind == "rail":
@@ -62,7 +65,16 @@ class Reading(ProfileFile):
     def chosen(self, wheel: str | None, rail: str | None) -> dict[profile.Kind, profile.Profile]:
         """Return the profiles that have a name."""
         names: dict[profile.Kind, str | None] = {"wheel": wheel, "rail": rail}
-        return {kind: self.load(name, kind) for kind, name in names.items() if name}
+        self._require_file(wheel, rail)
+        return {kind: self.load(name, kind, wheel, rail) for kind, name in names.items() if name}
+
+    def _require_file(self, *names: str | None) -> None:
+        """Raise a ContactError for an option that says how a file is read, if no profile is one."""
+        given = [
+            of for of, value in self.given.items() if of not in ("scale", "rotation") and value not in (None, False)
+        ]
+        if given and not any(name and profile.is_file(name) for name in names):
+            raise ContactError(f"--profile-{given[0]} is for files of profiles; the profiles are of the standards")
 
 
 @dataclass

@@ -16,7 +16,7 @@ from contact.geometry.shape import Kind, Profile
 
 __all__ = [
     "ALIASES", "SIDES", "SPACING", "UNITS", "ZEROS", "Inspection", "Kind", "Profile", "check", "cone", "default_inclination",
-    "is_standard", "load", "named", "names", "rail_60e1", "rail_arc", "read", "read_folder", "s1002",
+    "is_file", "is_standard", "load", "named", "names", "rail_60e1", "rail_arc", "read", "read_folder", "s1002",
 ]  # fmt: skip
 
 
@@ -24,6 +24,11 @@ def default_inclination(name: str) -> float | None:
     """Return the inclination that `load` gives the rail with this name; None if the profile has its own."""
     known = not Path(name).is_file() and is_standard(name)
     return library.STANDARD_INCLINATION if known and library.has_inclination(name) else None
+
+
+def is_file(name: str) -> bool:
+    """Return whether `load` takes this name as that of a file."""
+    return Path(name).is_file() or (("." in name or "/" in name or "\\" in name) and not is_standard(name))
 
 
 def load(
@@ -52,8 +57,7 @@ def load(
     require_kind("name", name, str | PathLike)
     rail_inclination = inclination if kind == "rail" else None
     rotation = require_number("rotation", rotation, -0.5, 0.5)
-    is_file = Path(name).is_file() or (("." in name or "/" in name or "\\" in name) and not is_standard(name))
-    if is_file:
+    if is_file(name):
         found = read(name, kind=kind, **options)
         turned = 0.0 if rail_inclination is None else library.angle_of(rail_inclination)
         rotation -= turned

@@ -39,6 +39,10 @@ from tests.command_line import call  # noqa: E402
         (("solve", "--curvatures", "1", "1", "--out", "nowhere/at/all.png"), "all.png cannot be written"),
         (("curve", "--out", "nowhere/at/all.csv"), "all.csv cannot be written"),
         (("patch", "--yaw", "3"), "--yaw 3"),
+        (("solve", "--profile-unit", "mm"), "--profile-unit is for files of profiles"),
+        (("geometry", "--profile-repair"), "--profile-repair is for files of profiles"),
+        (("solve", "--wheel", "a.whl", "--profile-unit", "mm"), "a.whl' is missing"),
+        (("geometry", "--left-wheel", "a.whl", "--profile-unit", "mm"), "a.whl' is missing"),
     ],
 )
 def test_bad_input_ends_with_a_message_on_stderr_and_code_2(words, message):
