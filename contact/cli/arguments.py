@@ -53,9 +53,8 @@ class Reading(ProfileFile):
 
     def load(self, name: str, kind: profile.Kind, *others: str | None) -> profile.Profile:
         """Return the profile with this name or in this file. `others` are names that the options are for, too."""
-        self._require_file(
-            name, *others, *(getattr(self, of, None) for of in ("wheel", "rail", "left_wheel", "left_rail"))
-        )
+        beside = (getattr(self, of, None) for of in ("wheel", "rail", "left_wheel", "left_rail"))
+        profile.require_file((name, *others, *beside), self.given)
         rotation = self.profile_rotation[0 if kind == "wheel" else 1]
         found = profile.load(name, kind, inclination=self.inclination, **self.given | {"rotation": rotation})
         if kind == "rail":
@@ -65,16 +64,8 @@ class Reading(ProfileFile):
     def chosen(self, wheel: str | None, rail: str | None) -> dict[profile.Kind, profile.Profile]:
         """Return the profiles that have a name."""
         names: dict[profile.Kind, str | None] = {"wheel": wheel, "rail": rail}
-        self._require_file(wheel, rail)
+        profile.require_file((wheel, rail), self.given)
         return {kind: self.load(name, kind, wheel, rail) for kind, name in names.items() if name}
-
-    def _require_file(self, *names: str | None) -> None:
-        """Raise a ContactError for an option that says how a file is read, if no profile is one."""
-        given = [
-            of for of, value in self.given.items() if of not in ("scale", "rotation") and value not in (None, False)
-        ]
-        if given and not any(name and profile.is_file(name) for name in names):
-            raise ContactError(f"--profile-{given[0]} is for files of profiles; the profiles are of the standards")
 
 
 @dataclass

@@ -78,6 +78,7 @@ def in_options(text: str, given: Mapping[str, Any]) -> str:
     text = text.replace(" (throw=False returns the solution with this status)", "")
     text = text.replace("patch reaches the end of the given separation; extend y", "patch reaches the end of a profile")
     text = re.sub(r"\b(zero|smoothing|wavelength)='?([\w.+-]+)'?", r"--profile-\1 \2", text)
+    text = re.sub(r"^(\w+) = .* says how a file is read", r"--profile-\1 says how a file is read", text)
     if found := re.search(r"\b(?:(?:kind|unit|side) = None(?:, )?)+: ", text):
         missing = [f"--profile-{name}" for name in re.findall(r"(\w+) = None", found[0])]
         text = text.replace(found[0], f"{', '.join(missing)} {'are' if len(missing) > 1 else 'is'} missing: ")

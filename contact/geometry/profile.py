@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Mapping
 from inspect import signature
 from os import PathLike
 from pathlib import Path
 from typing import Any
 
-from contact.errors import require_kind, require_number
+from contact.errors import ContactError, require_kind, require_number
 from contact.geometry import library
 from contact.geometry.files import SIDES, UNITS, ZEROS, Inspection, check, read, read_folder
 from contact.geometry.library import ALIASES, cone, is_standard, named, names, rail_60e1, rail_arc, s1002
@@ -16,7 +17,7 @@ from contact.geometry.shape import Kind, Profile
 
 __all__ = [
     "ALIASES", "SIDES", "SPACING", "UNITS", "ZEROS", "Inspection", "Kind", "Profile", "check", "cone", "default_inclination",
-    "is_file", "is_standard", "load", "named", "names", "rail_60e1", "rail_arc", "read", "read_folder", "s1002",
+    "is_standard", "load", "named", "names", "rail_60e1", "rail_arc", "read", "read_folder", "s1002",
 ]  # fmt: skip
 
 
@@ -29,6 +30,16 @@ def default_inclination(name: str) -> float | None:
 def is_file(name: str) -> bool:
     """Return whether `load` takes this name as that of a file."""
     return Path(name).is_file() or (("." in name or "/" in name or "\\" in name) and not is_standard(name))
+
+
+def require_file(names: Iterable[str | None], options: Mapping[str, Any]) -> None:
+    """Raise a ContactError for an option of `read` that is not its default, if none of the names of profiles is a file."""
+    defaults = {name: parameter.default for name, parameter in signature(read).parameters.items() if name != "scale"}
+    given = [name for name, default in defaults.items() if name in options and options[name] != default]
+    if given and not any(name and is_file(name) for name in names):
+        raise ContactError(
+            f"{given[0]} = {options[given[0]]!r} says how a file is read, and the profiles are those of the standards"
+        )
 
 
 def load(
