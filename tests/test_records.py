@@ -20,7 +20,6 @@ from contact.view import notebook
 from tests.notebooks import drawn, parsed, words
 
 CREEPAGE = contact.Creepage(1e-3, -5e-4, 0.2)
-FIELDS = ("x", "y", "p", "qx", "qy", "sx", "sy", "stick", "dA")
 PAIRS = {"strips": {}, "grid": {"normal": "halfspace", "tangential": "halfspace", "n_strips": 12, "n_elements": 12}}
 COPIES = {
     "copy": copy.copy,

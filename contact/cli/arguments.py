@@ -51,8 +51,10 @@ class Reading(ProfileFile):
     inclination: opt.Inclination = None
     profile_rotation: opt.Rotation = (0.0, 0.0)
 
-    def load(self, name: str, kind: profile.Kind) -> profile.Profile:
-        """Return the profile with this name or in this file."""
+    def load(self, name: str, kind: profile.Kind, *others: str | None) -> profile.Profile:
+        """Return the profile with this name or in this file. `others` are names that the options are for, too."""
+        beside = (getattr(self, of, None) for of in ("wheel", "rail", "left_wheel", "left_rail"))
+        profile.require_file((name, *others, *beside), self.given)
         rotation = self.profile_rotation[0 if kind == "wheel" else 1]
         found = profile.load(name, kind, inclination=self.inclination, **self.given | {"rotation": rotation})
         if kind == "rail":
@@ -62,7 +64,8 @@ class Reading(ProfileFile):
     def chosen(self, wheel: str | None, rail: str | None) -> dict[profile.Kind, profile.Profile]:
         """Return the profiles that have a name."""
         names: dict[profile.Kind, str | None] = {"wheel": wheel, "rail": rail}
-        return {kind: self.load(name, kind) for kind, name in names.items() if name}
+        profile.require_file((wheel, rail), self.given)
+        return {kind: self.load(name, kind, wheel, rail) for kind, name in names.items() if name}
 
 
 @dataclass

@@ -98,8 +98,6 @@ def in_time(
 
 def _read(path: Path) -> dict[str, np.ndarray]:
     """Return the columns of a file by name."""
-    if not path.is_file():
-        raise ContactError(f"{path} cannot be read: there is no such file")
     found = table(path, "motion")
     if not found.names or not len(found.values):
         raise ContactError(f"{path} holds no motion: a line of names and a line for each time are needed")

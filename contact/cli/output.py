@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import errno
 import functools
 import re
 import warnings
@@ -52,6 +53,10 @@ def reported(command: Command) -> Command:
                 command(*args, **kwargs)
         except ContactError as error:
             stop(in_options(str(error), kwargs), BAD_INPUT)
+        except OSError as error:
+            if error.errno == errno.EPIPE:  # the reader of a pipe has had enough, as in `contact profiles | head`
+                raise
+            stop(f"{error.filename}: {error.strerror}" if error.filename else str(error), BAD_INPUT)
         except ImportError as error:
             if "pip install 'wheelrail-contact[" not in str(error):
                 raise
@@ -73,6 +78,7 @@ def in_options(text: str, given: Mapping[str, Any]) -> str:
     text = text.replace(" (throw=False returns the solution with this status)", "")
     text = text.replace("patch reaches the end of the given separation; extend y", "patch reaches the end of a profile")
     text = re.sub(r"\b(zero|smoothing|wavelength)='?([\w.+-]+)'?", r"--profile-\1 \2", text)
+    text = re.sub(r"^(\w+) = .* says how a file is read", r"--profile-\1 says how a file is read", text)
     if found := re.search(r"\b(?:(?:kind|unit|side) = None(?:, )?)+: ", text):
         missing = [f"--profile-{name}" for name in re.findall(r"(\w+) = None", found[0])]
         text = text.replace(found[0], f"{', '.join(missing)} {'are' if len(missing) > 1 else 'is'} missing: ")

@@ -64,8 +64,12 @@ def check(
 
 def _files(given: list[Path]) -> Iterator[Path]:
     for path in given:
-        inside = (each for each in path.iterdir() if each.is_file() and not each.name.startswith("."))
-        yield from sorted(inside) if path.is_dir() else [path]
+        if not path.is_dir():
+            yield path
+        elif inside := sorted(each for each in path.iterdir() if each.is_file() and not each.name.startswith(".")):
+            yield from inside
+        else:
+            raise ContactError(f"folder = {str(path)!r} holds no file")
 
 
 def _plain(found: Any) -> dict[str, Any]:

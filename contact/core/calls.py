@@ -81,6 +81,8 @@ def members_of(kind: Any) -> list[tuple[str, Any]]:
     given = dict(zip(getattr(group, "__parameters__", ()), get_args(kind), strict=True))
 
     def resolved(of: Any) -> Any:
+        if get_origin(of) is Annotated and not isinstance(get_args(of)[1], Shape):
+            of = get_args(of)[0]  # a group, with how it is laid
         if of in given:
             return given[of]
         inner = () if get_origin(of) is Annotated else getattr(of, "__parameters__", ())

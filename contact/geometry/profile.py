@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Mapping
 from inspect import signature
 from os import PathLike
 from pathlib import Path
 from typing import Any
 
-from contact.errors import require_kind, require_number
+from contact.errors import ContactError, require_kind, require_number
 from contact.geometry import library
 from contact.geometry.files import SIDES, UNITS, ZEROS, Inspection, check, read, read_folder
 from contact.geometry.library import ALIASES, cone, is_standard, named, names, rail_60e1, rail_arc, s1002
@@ -24,6 +25,21 @@ def default_inclination(name: str) -> float | None:
     """Return the inclination that `load` gives the rail with this name; None if the profile has its own."""
     known = not Path(name).is_file() and is_standard(name)
     return library.STANDARD_INCLINATION if known and library.has_inclination(name) else None
+
+
+def is_file(name: str) -> bool:
+    """Return whether `load` takes this name as that of a file."""
+    return Path(name).is_file() or (("." in name or "/" in name or "\\" in name) and not is_standard(name))
+
+
+def require_file(names: Iterable[str | None], options: Mapping[str, Any]) -> None:
+    """Raise a ContactError for an option of `read` that is not its default, if none of the names of profiles is a file."""
+    defaults = {name: parameter.default for name, parameter in signature(read).parameters.items() if name != "scale"}
+    given = [name for name, default in defaults.items() if name in options and options[name] != default]
+    if given and not any(name and is_file(name) for name in names):
+        raise ContactError(
+            f"{given[0]} = {options[given[0]]!r} says how a file is read, and the profiles are those of the standards"
+        )
 
 
 def load(
@@ -52,8 +68,7 @@ def load(
     require_kind("name", name, str | PathLike)
     rail_inclination = inclination if kind == "rail" else None
     rotation = require_number("rotation", rotation, -0.5, 0.5)
-    is_file = Path(name).is_file() or (("." in name or "/" in name or "\\" in name) and not is_standard(name))
-    if is_file:
+    if is_file(name):
         found = read(name, kind=kind, **options)
         turned = 0.0 if rail_inclination is None else library.angle_of(rail_inclination)
         rotation -= turned

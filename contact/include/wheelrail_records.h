@@ -634,8 +634,8 @@ enum {
     X(WHEEL_RADIUS, "wheel radius", 0.7, 0.0, "a railway wheel has 0.15 to 0.65 m; is it the diameter?") \
     X(BEND, "bend", 0.4, 0.0, "the contact angle changes by more than 23 degrees over the patch, which strips take as plane: a lateral force of the pressure of up to 0.1 of the load is left out, and creep forces change by 0.03 of friction times load in the median. A conformal surface has both, but the influence numbers of a plane: 0.02 to 0.06 of friction times load in the median (limits.md)") \
     X(BEYOND, "beyond", 0.01, 0.0, "more than 0.01 of the load is on shapes with a/b beyond 0.1 to 31.6, the ends of the half space's table of creep forces ('fastrip_mapped', 'table'), or beyond 0.02 to 50, those of Kalker's coefficients (other methods), which count for them: forces may be more than 0.01 of friction times load off, above 50 more than 0.1 (limits.md)") \
-    X(GAP_ERROR, "gap_error", 0.17, 0.0, "the pressure leaves gaps or overlaps inside the patch, or surfaces are no parabolas along x; above 0.17 the largest pressure may be more than 5 % wrong (limits.md)") \
-    X(GAP_ERROR_INTERACTING, "gap_error interacting", 0.03, 0.0, "the pressure leaves gaps or overlaps inside the patch, or surfaces are no parabolas along x; above 0.03 the largest pressure may be more than 5 % wrong (limits.md)") \
+    X(GAP_ERROR, "gap_error", 0.17, 0.0, "the pressure leaves gaps or overlaps inside the patch, strips do not see short waves of a profile (smooth it, or take more strips), or surfaces are no parabolas along x; above 0.17 the largest pressure may be more than 5 % wrong (limits.md)") \
+    X(GAP_ERROR_INTERACTING, "gap_error interacting", 0.03, 0.0, "the pressure leaves gaps or overlaps inside the patch, strips do not see short waves of a profile (smooth it, or take more strips), or surfaces are no parabolas along x; above 0.03 the largest pressure may be more than 5 % wrong (limits.md)") \
     X(N, "N", 1000000.0, 0.0, "a wheel carries 20 to 150 kN; do wheel and rail overlap by millimetres?")
 
 #endif

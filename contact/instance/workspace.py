@@ -44,10 +44,12 @@ class _UnboundedBlock:
     """Stand-in for a block of memory of unlimited size, used to find the size that a layout needs."""
 
     shape = (0, 0, 0)
-    size = 0
 
-    def __getitem__(self, where: object) -> _UnboundedBlock:
-        return self
+    def __init__(self, size: int = 0) -> None:
+        self.size = size
+
+    def __getitem__(self, where: slice) -> _UnboundedBlock:
+        return _UnboundedBlock(where.stop - where.start)
 
     def reshape(self, *shape: int) -> _UnboundedBlock:
         return self
@@ -191,5 +193,5 @@ def derivative_arrays(size: tuple[int, int, int], of_pair: PairArrays) -> Deriva
     if isinstance(search, SurfaceSearch):
         near = surface_search(search.wheel, search.rail, search.separations.shape[2])
     else:
-        near = laid(memory.lay_near_search, full, search)
+        near = laid(memory.lay_near_search, full.n_samples, search)
     return laid(memory.lay_derivatives, full, near, of_pair)

@@ -1,4 +1,8 @@
-"""What kernels receive: named groups of arrays. `contact.kernels.memory` states their shapes."""
+"""What kernels receive: named groups of arrays.
+
+The text in an annotation is the shape of an array, or the arguments of the layout of a group, in the names of
+`contact.kernels.memory`. Arrays lie in memory in the sequence of the members. A member without a text is laid elsewhere.
+"""
 
 from __future__ import annotations
 
@@ -17,6 +21,8 @@ Flags = Annotated[Any, Shape(np.bool_, 2)]
 FourD = Annotated[Any, Shape(np.float64, 4)]
 FiveD = Annotated[Any, Shape(np.float64, 5)]
 Integers = Annotated[Any, Shape(np.int64, 1)]
+#: Beside a shape: the array begins at a line of the cache.
+ON_LINE = "line"
 
 #: Arrays of records (`contact.kernels.records`), and single records.
 Cases = Annotated[Any, Shape(records.CASE, 1)]
@@ -53,34 +59,34 @@ Offsets = Annotated[Any, Shape(records.WHEEL_OFFSET, 1)]
 class Samples(NamedTuple):
     """Samples of a separation: the rows of `contact.Separation`, all of the same length."""
 
-    y: Numbers
-    g: Numbers
-    A: Numbers
-    x_c: Numbers
-    tilt: Numbers
+    y: Annotated[Numbers, "n"]
+    g: Annotated[Numbers, "n"]
+    A: Annotated[Numbers, "n"]
+    x_c: Annotated[Numbers, "n"]
+    tilt: Annotated[Numbers, "n"]
 
 
 @group
 class Across(NamedTuple):
     """Positions of strips across a patch, on [-1, 1], and their weights: Fejér's first rule."""
 
-    nodes: Numbers
-    weights: Numbers
+    nodes: Annotated[Numbers, "n_strips"]
+    weights: Annotated[Numbers, "n_strips"]
 
 
 @group
 class Rule(NamedTuple):
     """Positions of strips and elements in a patch, and tables that follow from them. Constant for a resolution, read-only."""
 
-    across: Across
-    elements: Matrix
-    cosines: Numbers
-    cosine_logs: Matrix
-    columns: Cube
-    descent: Cube
-    factors: Cube
-    probes: Numbers
-    spread: Matrix
+    across: Annotated[Across, "size.n_strips"]
+    elements: Annotated[Matrix, "len(Element), size.n_elements"]
+    cosines: Annotated[Numbers, "size.n_strips + 1"]
+    cosine_logs: Annotated[Matrix, "size.n_strips, size.n_strips + 1"]
+    columns: Annotated[Cube, "*columns_shape(size)"]
+    descent: Annotated[Cube, "*descent_shape(size)"]
+    factors: Annotated[Cube, "*factors_shape(size)"]
+    probes: Annotated[Numbers, "PROBES"]
+    spread: Annotated[Matrix, "PROBES, size.n_strips"]
 
 
 @group
@@ -106,19 +112,19 @@ class Space(NamedTuple):
     each step of it. `tangent` says how they follow a small change (`normal.tangent`).
     """
 
-    grid: Matrix
-    turned: Matrix
-    vectors: Matrix
-    logs: Matrix
-    matrix: Matrix
-    lu: Matrix
-    iteration: Iterations
-    iterates: Matrix
+    grid: Annotated[Matrix, "len(Sample), size.n_samples"]
+    turned: Annotated[Matrix, "len(Sep), size.n_samples if size.interacting else 1"]
+    vectors: Annotated[Matrix, "N_VECTOR_ROWS, MAX_PATCHES * size.n_strips"]
+    logs: Annotated[Matrix, "MAX_PATCHES * PROBES if size.interacting else 1, coupled(size) + MAX_PATCHES"]
+    matrix: Annotated[Matrix, "coupled(size), coupled(size)"]
+    lu: Annotated[Matrix, "coupled(size), coupled(size)"]
+    iteration: Annotated[Iterations, "1"]
+    iterates: Annotated[Matrix, "MOST_ITERATES if size.interacting else 1, Iterate.ENDS + 2 * MAX_PATCHES"]
     memory: Numbers
-    lanes: Numbers
-    trace: Matrix
-    case: Cases
-    tangent: Matrix
+    lanes: Annotated[Numbers, "N_LANE_ROWS * LANES", ON_LINE]
+    trace: Annotated[Matrix, "size.n_elements, TRACE_WIDTH"]
+    case: Annotated[Cases, "1"]
+    tangent: Annotated[Matrix, "*tangent_shape(size.n_strips, size.interacting)"]
 
 
 @group
@@ -141,11 +147,11 @@ class SolverArrays(NamedTuple):
     """
 
     workspace: Workspace
-    case: Cases
-    result: Results
-    search: ForceSearches
-    row: Cube
-    slopes: Matrix
+    case: Annotated[Cases, "2"]
+    result: Annotated[Results, "2"]
+    search: Annotated[ForceSearches, "1"]
+    row: Annotated[Cube, "len(Field), 1, size.n_elements"]
+    slopes: Annotated[Matrix, "ROWS, COLUMNS"]
 
 
 @group
@@ -188,22 +194,22 @@ class Search(NamedTuple):
     scratch.
     """
 
-    wheel: Matrix
-    rail: Matrix
-    motion: Motions
-    grid: Numbers
-    patches: Patches
-    separations: Cube
-    line: Matrix
-    placed: Matrix
-    lobes: Lobes
-    wheel_plane: Matrix
-    rail_plane: Matrix
-    case: Cases
-    across: Across
-    work: Matrix
-    strips: Matrix
-    result: Results
+    wheel: Annotated[Matrix, "N_PROFILE_ROWS, n_wheel"]
+    rail: Annotated[Matrix, "N_PROFILE_ROWS, n_rail"]
+    motion: Annotated[Motions, "1"]
+    grid: Annotated[Numbers, "prescribed"]
+    patches: Annotated[Patches, "MAX_PATCHES"]
+    separations: Annotated[Cube, "MAX_PATCHES, len(Sep), n_samples"]
+    line: Annotated[Matrix, "N_LINE_ROWS, n_wheel"]
+    placed: Annotated[Matrix, "N_PROFILE_ROWS, n_rail"]
+    lobes: Annotated[Lobes, "MAX_LOBES"]
+    wheel_plane: Annotated[Matrix, "N_LINE_ROWS, n_wheel"]
+    rail_plane: Annotated[Matrix, "N_PROFILE_ROWS, n_rail"]
+    case: Annotated[Cases, "1"]
+    across: Annotated[Across, "SEARCH_STRIPS"]
+    work: Annotated[Matrix, "len(Sample), n_samples"]
+    strips: Annotated[Matrix, "len(Strip), MAX_PATCHES * SEARCH_STRIPS"]
+    result: Annotated[Results, "1"]
 
 
 @group
@@ -215,11 +221,11 @@ class Sheet(NamedTuple):
     `deviation` has the rows u, value and slope of what is added to z.
     """
 
-    u: Numbers
-    nodes: Cube
-    runs: Matrix
-    period: Numbers
-    deviation: Matrix
+    u: Annotated[Numbers, "n_slices"]
+    nodes: Annotated[Cube, "n_slices, 2 * len(Node), n_paths"]
+    runs: Annotated[Matrix, "n_slices, 2"]
+    period: Annotated[Numbers, "2"]
+    deviation: Annotated[Matrix, "3, n_deviation"]
 
 
 @group
@@ -233,24 +239,24 @@ class SurfaceSearch(NamedTuple):
 
     wheel: Sheet
     rail: Sheet
-    motion: Motions
-    patches: Patches
-    separations: Cube
-    lobes: Lobes
-    section: Matrix
-    column: Matrix
-    coarse: Cube
-    rough: Cube
-    fine: Cube
-    boxes: Matrix
-    stack: Numbers
-    h: Matrix
-    x: Matrix
-    case: Cases
-    across: Across
-    work: Matrix
-    strips: Matrix
-    result: Results
+    motion: Annotated[Motions, "2"]
+    patches: Annotated[Patches, "MAX_PATCHES"]
+    separations: Annotated[Cube, "MAX_PATCHES, len(Sep), n_samples"]
+    lobes: Annotated[Lobes, "MAX_LOBES"]
+    section: Annotated[Matrix, "len(Section), max(wheel.nodes.shape[2], rail.nodes.shape[2])"]
+    column: Annotated[Matrix, "len(Over), max(COARSE_ROWS, FINE_ROWS, n_samples)"]
+    coarse: Annotated[Cube, "2, COARSE_ROWS, COARSE_COLUMNS"]
+    rough: Annotated[Cube, "GRIDS * len(Cell), FINE_ROWS, FINE_COLUMNS"]
+    fine: Annotated[Cube, "GRIDS * len(Cell), FINE_ROWS, FINE_COLUMNS"]
+    boxes: Annotated[Matrix, "2 * GRIDS + 1, len(Box)"]
+    stack: Annotated[Numbers, "COARSE_ROWS * COARSE_COLUMNS"]
+    h: Annotated[Matrix, "n_samples, PATCH_COLUMNS"]
+    x: Annotated[Matrix, "n_samples, PATCH_COLUMNS"]
+    case: Annotated[Cases, "1"]
+    across: Annotated[Across, "SEARCH_STRIPS"]
+    work: Annotated[Matrix, "len(Sample), n_samples"]
+    strips: Annotated[Matrix, "len(Strip), MAX_PATCHES * SEARCH_STRIPS"]
+    result: Annotated[Results, "1"]
 
 
 @group
@@ -262,12 +268,12 @@ class Ledger(NamedTuple):
     """
 
     wheel: Matrix
-    wheel_arc: Numbers
+    wheel_arc: Annotated[Numbers, "wheel.shape[1]"]
     rail: Matrix
-    rail_arc: Numbers
-    settings: Settings
-    rates: Matrix
-    edges: Matrix
+    rail_arc: Annotated[Numbers, "rail.shape[1]"]
+    settings: Annotated[Settings, "1"]
+    rates: Annotated[Matrix, "len(Bin), MAX_PATCHES * n_strips"]
+    edges: Annotated[Matrix, "2, MAX_PATCHES * n_strips"]
     bins: Cube
 
 
@@ -288,22 +294,22 @@ class PairArrays(NamedTuple, Generic[Kind]):
 
     search: Kind
     workspace: Workspace
-    case: Cases
-    patch_case: Cases
-    result: Results
+    case: Annotated[Cases, "1"]
+    patch_case: Annotated[Cases, "1"]
+    result: Annotated[Results, "1"]
     memory: Numbers
-    damage_parameters: Parameters
-    damage_fields: Cube
-    damage: Damages
-    contacts: Contacts
-    total: Totals
+    damage_parameters: Annotated[Parameters, "1"]
+    damage_fields: Annotated[Cube, "len(DamageField), MAX_PATCHES * size.n_strips, size.n_elements"]
+    damage: Annotated[Damages, "1"]
+    contacts: Annotated[Contacts, "MAX_PATCHES"]
+    total: Annotated[Totals, "1"]
     ledger: Ledger
-    rail: Springs
-    roots: Roots
-    moved: Givens
-    given: Givens
-    offset: Offsets
-    displaced: Givens
+    rail: Annotated[Springs, "1"]
+    roots: Annotated[Roots, "3"]
+    moved: Annotated[Givens, "1"]
+    given: Annotated[Givens, "1"]
+    offset: Annotated[Offsets, "1"]
+    displaced: Annotated[Givens, "1"]
 
 
 @group
@@ -319,17 +325,17 @@ class DerivativeArrays(NamedTuple, Generic[Kind]):
 
     neighbour: PairArrays[Kind]
     numbers: Numbers
-    start: Numbers
-    patches: Patches
-    middle: Numbers
-    forces: Numbers
-    by_creep: Cube
-    creeps: Cube
-    row: Cube
-    tangents: Cube
-    linear: Numbers
-    sides: Numbers
-    jacobian: Matrix
+    start: Annotated[Numbers, "neighbour.memory.size"]
+    patches: Annotated[Patches, "MAX_PATCHES"]
+    middle: Annotated[Numbers, "PAIR_ROWS"]
+    forces: Annotated[Numbers, "PAIR_ROWS"]
+    by_creep: Annotated[Cube, "MAX_PATCHES, CREEPS, PAIR_ROWS"]
+    creeps: Annotated[Cube, "MAX_PATCHES, CREEPS, len(Moved)"]
+    row: Annotated[Cube, "len(Field), 1, size.n_elements"]
+    tangents: Annotated[Cube, "MAX_PATCHES, *tangent_shape(size.n_strips, size.interacting)"]
+    linear: Annotated[Numbers, "MAX_PATCHES"]
+    sides: Annotated[Numbers, "len(Moved)"]
+    jacobian: Annotated[Matrix, "PAIR_ROWS, len(Moved)"]
 
 
 class Size(NamedTuple):

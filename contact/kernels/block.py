@@ -7,10 +7,14 @@ the memory of an FMU instance.
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, get_args, get_type_hints
+
+import numpy as np
 
 from contact.core import COMPILING, shared
-from contact.kernels.arrays import Array
+from contact.kernels import records as of_records
+from contact.kernels import rows
+from contact.kernels.arrays import ON_LINE, Array
 
 #: Number of float64 in a cache line. Vectors that extend over two lines cost a sixth of the time of the march.
 _LINE = 8
@@ -52,6 +56,53 @@ def records(block: Array, end: int, n: int, dtype: Any) -> tuple[Array, int]:
 def next_line(end: int) -> int:
     """Return the first index from `end` on at which a cache line begins. The block itself begins at one."""
     return (end + _LINE - 1) // _LINE * _LINE
+
+
+#: What the shapes of arrays may name, and what lays them by their number of dimensions.
+_NAMES = {**vars(rows), **vars(of_records)}
+_ARRAYS = {1: vector, 2: matrix, 3: cube}
+_LAYOUTS: dict[Any, Any] = {}
+
+
+def layout(
+    kind: Any, parameters: str, names: dict[str, Any], *, of: str = "", new: tuple[str, ...] = (), **shapes: str
+) -> Any:
+    """Return the function ``lay(block, end, …)``, which lays a group of arrays as the annotations of its members say.
+
+    Parameters
+    ----------
+    kind : type
+        A named tuple as those of `contact.kernels.arrays`.
+    parameters : str
+        Names of what the shapes depend on. A member with such a name is what the caller gives.
+    names : dict
+        What other names in the shapes mean, besides those of `rows` and `records`.
+    of, new : str, tuple of str
+        Parameter with a group of the same kind, which has all members but the `new` ones and the parameters.
+    **shapes : str
+        Member → shape in place of that in its annotation.
+    """
+    known, given = {**_NAMES, **names, "next_line": next_line, "made": kind}, parameters.split(", ")
+    lines, values = [], []
+    for name, hint in get_type_hints(kind, include_extras=True).items():
+        values.append(f"{of}.{name}" if of and name not in (*new, *given) else name)
+        if name in given or values[-1] != name:
+            continue
+        its, *about = get_args(hint)
+        begin = "next_line(end)" if ON_LINE in about else "end"
+        if its in _LAYOUTS:
+            known[f"lay_{name}"], size = _LAYOUTS[its], about[0]
+        else:
+            array = about[0]
+            known[f"lay_{name}"], size = _ARRAYS[array.ndim], shapes.get(name) or about[1]
+            if array.dtype is not np.float64:
+                known[f"lay_{name}"], known[f"of_{name}"], size = records, array.dtype, f"{size}, of_{name}"
+        lines.append(f"    {name}, end = lay_{name}(block, {begin}, {size})\n")
+    source = f"def lay(block, end, {parameters}):\n{''.join(lines)}    return made({', '.join(values)}), end\n"
+    exec(compile(source, f"<layout of {kind.__name__}>", "exec"), known)
+    if not of:
+        _LAYOUTS[kind] = known["lay"]
+    return shared(known["lay"])
 
 
 if COMPILING:

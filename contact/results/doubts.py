@@ -20,7 +20,8 @@ BEYOND = 0.01
 def _gap(limit: float) -> Usual:
     return Usual(
         limit,
-        "the pressure leaves gaps or overlaps inside the patch, or surfaces are no parabolas along x; "
+        "the pressure leaves gaps or overlaps inside the patch, strips do not see short waves of a profile (smooth it, or take "
+        "more strips), or surfaces are no parabolas along x; "
         f"above {limit:g} the largest pressure may be more than 5 % wrong (limits.md)",
     )
 

@@ -119,9 +119,10 @@ class Solution(MadeLater):
     area, slip_area : contact area and area of its slip zone [m²]
     power_per_metre : frictional energy per metre rolled, -∬ q·s dA ≥ 0 [N]
     normal_stiffness : dN/d(approach) [N/m]
-    gap_error : the largest gap or overlap that the pressure leaves inside the patch, over the approach [-]. It estimates the
-        error of the normal problem: 0 is exact, above the method's `gap_limit` (`contact.methods()`) the largest pressure
-        is doubtful
+    gap_error : the largest gap or overlap that the pressure leaves inside the patch, over the approach [-], or the mean
+        pressure of waves that are narrower than the strips, over the largest one, if that is more. It estimates the error
+        of the normal problem: 0 is exact, above the method's `gap_limit` (`contact.methods()`) the largest pressure is
+        doubtful
     bend : change of the contact angle over the patches, which lie in one plane [rad]. The contact is taken as plane unless
         `conformal`; above `BEND` its lateral force is up to a tenth of the load off. The half space in the plane does not
         tell it: 0

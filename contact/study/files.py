@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import csv
 import io
+import os
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
@@ -31,11 +32,28 @@ def require_ending(path: str | Path, endings: Sequence[str]) -> str:
 
 
 def require_writable(path: str | Path, endings: Sequence[str]) -> str:
-    """Return the same before a computation, and refuse a folder that does not exist."""
-    ending = require_ending(path, endings)
-    if not Path(path).absolute().parent.is_dir():
+    """Return the same before a computation, and refuse what cannot be written."""
+    ending, place = require_ending(path, endings), Path(path).absolute()
+    if not place.parent.is_dir():
         raise ContactError(f"{path} cannot be written: there is no folder {str(Path(path).parent)!r}")
+    if place.is_dir():
+        raise ContactError(f"{path} cannot be written: it is a folder")
+    _require_access(path, place if place.exists() else place.parent)
     return ending
+
+
+def require_folder(path: str | Path) -> None:
+    """Raise a ContactError, before a computation, for a path that is not and cannot become a folder for its files."""
+    place = Path(path).absolute()
+    nearest = next(each for each in (place, *place.parents) if each.exists())
+    if not nearest.is_dir():
+        raise ContactError(f"{path} cannot be written: {str(nearest)!r} is a file and no folder")
+    _require_access(path, nearest)
+
+
+def _require_access(path: str | Path, place: Path) -> None:
+    if not os.access(place, os.W_OK):
+        raise ContactError(f"{path} cannot be written: there is no permission to write {str(place)!r}")
 
 
 def write(path: str | Path, texts: Mapping[str, Callable[[], str]], figure: Callable[[], Any] | None = None) -> None:

@@ -12,6 +12,7 @@ from typing import NamedTuple
 from contact.cli.extras import absent_modules
 from contact.errors import ContactError
 from contact.geometry.profile import Kind, Profile
+from contact.study.files import require_folder
 from contact_models.runs import scenario
 from . import ssp, starts, validation
 from .catalogue import Model, models, surfaces, vehicles
@@ -79,17 +80,18 @@ def build(options: Options, given: Mapping[Kind, Profile]) -> None:
     asked = _asked(options)
     if options.validation is not None and absent_modules("fmu"):
         raise ImportError("a validation set is made by fmpy: pip install 'wheelrail-contact[fmu]'")
-    if not options.describe:
-        # first, because Python uses the one of this system; else a clone would build a library for itself too
-        if "native" in asked.packagings:
-            systems.folder(asked.platforms)
-        if "python" in asked.packagings:
-            systems.of_this_machine()
     if options.vehicle:
         of_vehicle = scenario.read(options.vehicle)
         given = {**starts.profiles(of_vehicle), **given}
         for what in starts.left_out(of_vehicle):
             print(f"{options.vehicle.name}: the FMUs of the vehicle do not take {what}")
+    if not options.describe:
+        require_folder(options.out)
+        # before the models, because Python uses the one of this system; else a clone would build a library for itself too
+        if "native" in asked.packagings:
+            systems.folder(asked.platforms)
+        if "python" in asked.packagings:
+            systems.of_this_machine()
 
     def is_asked(model: Model) -> bool:
         return "all" in asked.models or model.table.name in asked.models

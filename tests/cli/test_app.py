@@ -1,5 +1,6 @@
 """Command line: errors, help, plug-ins and missing packages."""
 
+import errno
 import json
 import subprocess
 import sys
@@ -38,12 +39,58 @@ from tests.command_line import call  # noqa: E402
         (("solve", "--curvatures", "1", "1", "--out", "nowhere/at/all.png"), "all.png cannot be written"),
         (("curve", "--out", "nowhere/at/all.csv"), "all.csv cannot be written"),
         (("patch", "--yaw", "3"), "--yaw 3"),
+        (("solve", "--profile-unit", "mm"), "--profile-unit says how a file is read"),
+        (("geometry", "--profile-repair"), "--profile-repair says how a file is read"),
+        (("solve", "--wheel", "a.whl", "--profile-unit", "mm"), "a.whl' is missing"),
+        (("geometry", "--left-wheel", "a.whl", "--profile-unit", "mm"), "a.whl' is missing"),
     ],
 )
 def test_bad_input_ends_with_a_message_on_stderr_and_code_2(words, message):
     result = call(*words, code=2)
     assert message in result.stderr
     assert "Traceback" not in result.output
+
+
+@pytest.mark.parametrize(
+    ("words", "message"),
+    [
+        (("solve", "--out", "folder.png"), "folder.png cannot be written: it is a folder"),
+        (
+            ("lut", "--axis", "y=0:1e-3:2", "--load", "8e4", "--out", "folder.csv"),
+            "folder.csv cannot be written: it is",
+        ),
+        (("demo", "--python", "--out", "file"), "is a file and no folder"),
+        (("run", "no.toml", "--out", "file/deep"), "file' is a file and no folder"),
+        (("run", "no.toml", "--out", "folder.csv"), "folder.csv cannot be written: it is a folder"),
+        (("wear", "no.toml", "--out", "file"), "is a file and no folder"),
+        (("fmu", "--out", "file"), "is a file and no folder"),
+        (("fmu", "--vehicle", "no.toml"), "path = 'no.toml' is missing"),
+        (("fmu", "--vehicle", "file"), "path = 'file' is empty"),
+        (("in-time", "folder.csv", "--load", "8e4"), "motion = 'folder.csv' is a folder"),
+        (("check", "folder.csv"), "folder = 'folder.csv' holds no file"),
+    ],
+)
+def test_what_cannot_be_read_or_written_is_told_before_the_computation(words, message, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    for name in ("folder.csv", "folder.png"):
+        (tmp_path / name).mkdir()
+    (tmp_path / "file").touch()
+    add_plugins(cli.app)
+    monkeypatch.setattr("contact_fmu.native.systems.folder", lambda *_: pytest.fail("builds libraries first"))
+    result = call(*words, code=2)
+    assert message in result.stderr
+    assert result.stdout == ""
+
+
+def test_a_file_system_that_refuses_ends_with_a_message():
+    def refuse():
+        raise OSError(errno.ENOSPC, "No space left on device", "place/result.nc")
+
+    app = typer.Typer(pretty_exceptions_enable=False)
+    app.command()(output.reported(refuse))
+    result = CliRunner().invoke(app, [])
+    assert result.exit_code == output.BAD_INPUT
+    assert "contact: place/result.nc: No space left on device" in result.stderr
 
 
 def test_unknown_commands_and_options_end_with_code_2():

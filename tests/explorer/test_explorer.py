@@ -20,7 +20,6 @@ from explorer.bundle import RAILS, WHEELS
 from reference.random_cases import PARTNERS
 from tests.explorer.wrong_files import FILES, written
 
-ROOT = Path(__file__).parents[2]
 METHODS = contact.methods().batched
 
 

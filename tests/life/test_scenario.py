@@ -149,6 +149,11 @@ def test_profiles_of_a_scenario_take_every_option_that_the_reader_asks_for(tmp_p
     found = scenario.read(path)
     np.testing.assert_allclose(found.wheel.z, wheel.z, atol=1e-8)
     np.testing.assert_array_equal(found.rail.z, profile.rail_60e1(0.05).z)
+    path.write_text(text.replace("wheel.txt", "S1002").format('unit = "mm"\n'))
+    with pytest.raises(
+        ContactError, match=r"profiles: unit = 'mm' says how a file is read, and the profiles are those of"
+    ):
+        scenario.read(path)
     path.write_text(text.replace("wheel.txt", "wheel18.txt").format(""))
     with pytest.raises(ContactError, match=r"wheel18\.txt' is missing"):
         scenario.read(path)

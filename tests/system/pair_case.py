@@ -37,14 +37,6 @@ _OF_ONE = {"x", "y", "z", "deflection_y", "deflection_z", "rail_y", "rail_z", "w
 _OF_ONE |= {"used_friction", "longitudinal", "lateral", "angle", "spin", "ratio"}
 
 
-def mirrored(values: dict[str, float]) -> dict[str, float]:
-    """Return the mirrored values, for the other side."""
-    even = ("pose.z", "velocity.x", "velocity.z", "velocity.spin", "irregularity.z", "irregularity.z_rate")
-    of_offset = {f"offset.{name}{rate}" for name in ("x", "z", "pitch") for rate in ("", "_rate")}
-    odd = set(MOTION) - of_offset.union(even)
-    return {name: -value if name in odd else value for name, value in values.items()}
-
-
 def warm(fmu):
     """Set MOTION, strips that interact, which start from the last step, and damage in bins in an instance and return it."""
     strips = {"method.normal": list(METHODS.normal).index("strip_halfspace") + 1}

@@ -24,7 +24,7 @@ class Script:
         self.program = folder / f"{platform}.exe"
         self.environment = os.environ | {"WINEDEBUG": "-all"}
         flags = ["-std=gnu11", "-O1", f"-I{HEADERS}"]
-        compile_program([*compiler(platform), *flags], platform, [SOURCE], self.program)
+        compile_program([*compiler(platform), *flags], platform, [HOST / "common.c", SOURCE], self.program)
 
     def __call__(self, unzipped: Path, kind: int, commands: str, before: tuple[str, ...] = ()) -> np.ndarray:
         """Run commands on an FMU in model exchange (0) or co-simulation (1) and return the printed numbers."""

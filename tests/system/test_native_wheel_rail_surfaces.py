@@ -22,7 +22,6 @@ from contact_fmu import profiles, resources, surfaces
 from contact_fmu.tables.wheel_rail_surfaces import RAIL, WHEEL
 from examples.crossing.crossing import crossing
 
-NAME = "WheelRailSurfaces"
 S1002, UIC60, SPEED = profile.s1002(), profile.rail_60e1(), 20.0
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from contact.core import COMPILING, arranging
-from contact.kernels import memory, quadrature
+from contact.kernels import block, memory, quadrature
 from contact.kernels.arrays import Size, Tables, Workspace
 from contact.kernels.kalker import N_TABLE, fill_table
 from contact.kernels.normal import influence
@@ -37,7 +37,7 @@ def lay_out(work, end, kept, size, constants):
     """
     _, centre, plane, creep = constants
     rule, end = memory.lay_rule(work, end, size)
-    coefficients, end = memory.lay_kalker(work, end)
+    coefficients, end = block.matrix(work, end, N_TABLE, 8)
     space, at_strips = memory.lay_space(work, end, size, kept)
     strips, fields, end = memory.lay_strips_and_fields(work, at_strips, size)
     tables = Tables(

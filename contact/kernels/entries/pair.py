@@ -9,10 +9,11 @@ last solution has left.
 from __future__ import annotations
 
 import math
-from typing import Any, NamedTuple
+from typing import Annotated, Any, NamedTuple
 
 from contact.core import COMPILING, arranging, group
 from contact.kernels import block, memory, quadrature
+from contact.kernels.arrays import Cube, Numbers
 from contact.kernels.damage.deposit import arc_length
 from contact.kernels.entries.layout import Entries, copy, copy_rows, fill, forget_forged, lay_out, size_of
 from contact.kernels.flexible import solve_flexible
@@ -20,7 +21,7 @@ from contact.kernels.geometry.prepare import facing, rail_origin, take_nodes
 from contact.kernels.pair_conditions import derive_pair
 from contact.kernels.pair_patches import solve_patch
 from contact.kernels.records import CASE, CONTACT, DAMAGE_PARAMETERS, MAX_PATCHES, MOTION, PAIR_INPUT, RESULT, TOTAL
-from contact.kernels.rows import N_PROFILE_ROWS, Bin, Moved
+from contact.kernels.rows import N_PROFILE_ROWS, Moved
 
 if COMPILING:
     from numba import carray
@@ -30,22 +31,14 @@ if COMPILING:
 class Start(NamedTuple):
     """Warm starts and bins in the caller's memory: those kept, and those that the last solution has left."""
 
-    kept: Any
-    trial: Any
-    spare: Any
-    kept_bins: Any
-    bins: Any
+    kept: Annotated[Numbers, "memory.pair_memory_size(piece)"]
+    trial: Annotated[Numbers, "memory.pair_memory_size(piece)"]
+    spare: Annotated[Numbers, "piece"]
+    kept_bins: Annotated[Cube, "2, len(Bin), n_bins"]
+    bins: Annotated[Cube, "2, len(Bin), n_bins"]
 
 
-@arranging
-def lay_start(work, end, piece, n_bins):
-    """Lay out `Start` from index `end` on. Return it, the index of the kept bins and the new end."""
-    kept, end = block.vector(work, end, memory.pair_memory_size(piece))
-    trial, end = block.vector(work, end, memory.pair_memory_size(piece))
-    spare, at_bins = block.vector(work, end, piece)
-    kept_bins, end = block.cube(work, at_bins, 2, len(Bin), n_bins)
-    bins, end = block.cube(work, end, 2, len(Bin), n_bins)
-    return Start(kept, trial, spare, kept_bins, bins), at_bins, end
+lay_start = block.layout(Start, "piece, n_bins", globals())
 
 
 @arranging
@@ -64,7 +57,7 @@ def lay_pair(work, end, profiles, facing, size, kept, bins, constants):
 @arranging
 def lay_derivatives(work, end, size, arrays):
     """Lay out what the derivatives of `arrays` need. Return it and the new end."""
-    near, end = memory.lay_near_search(work, end, size, arrays.search)
+    near, end = memory.lay_near_search(work, end, size.n_samples, arrays.search)
     return memory.lay_derivatives(work, end, size, near, arrays)
 
 
@@ -72,7 +65,8 @@ def lay_derivatives(work, end, size, arrays):
 def _lay(sizes, work, constants):
     """Return the start, the pair's arrays, the indices of the strips and of the kept bins, and the size in numbers."""
     size, s = size_of(sizes), carray(sizes, (9,))
-    start, at_bins, end = lay_start(work, 0, memory.memory_size(size), int(s[6]))
+    start, end = lay_start(work, 0, memory.memory_size(size), int(s[6]))
+    at_bins = end - start.kept_bins.size - start.bins.size
     wheel, end = block.matrix(work, end, N_PROFILE_ROWS, int(s[4]))
     rail, end = block.matrix(work, end, N_PROFILE_ROWS, int(s[5]))
     facing = int(s[7]), int(s[8])

@@ -134,7 +134,7 @@ def _lay(sizes, wheel, rail, work, constants):
     """Return the start, the pair's arrays, the index of the strips and the size. `wheel` and `rail`: the surfaces."""
     size, s = size_of(sizes), carray(sizes, (9,))
     n_wheel, n_rail = int(s[4]), int(s[5])
-    start, _, end = lay_start(work, n_wheel + n_rail, memory.memory_size(size), 0)
+    start, end = lay_start(work, n_wheel + n_rail, memory.memory_size(size), 0)
     arrays, at_strips, end = lay_pair(work, end, wheel, n_wheel, rail, n_rail, size, start.trial, constants)
     return start, arrays, at_strips, end
 

@@ -4,7 +4,8 @@ Inside the patch the gap must close: displacement + undeformed gap = approach. O
 semi-elliptic pressures of all strips displace the surface by U of `influence`. The estimate is the gap or overlap that
 remains at the middles of a few strips, or the overlap at the deepest point of a lobe without a patch, divided by the
 approach. It is zero for an exact solution and for Hertz's ellipse. Strips that interact satisfy it by
-construction.
+construction. They do not see waves of the gap that are shorter than two of them, so the pressure that such waves would need
+counts too, over the largest one.
 """
 
 import math
@@ -105,6 +106,57 @@ def _overlap_at(sep, at, n, delta, per_modulus, strips, vectors, plane, result):
 
 
 @kernel
+def _mean_gap(sep, low, high, k):
+    """Return the mean of the gap from y = `low`, in interval k of the samples, to `high`."""
+    y, g, size = sep.y, sep.g, sep.y.size
+    total, begin = 0.0, low
+    while begin < high:
+        end = high if k == size - 2 else min(high, y[k + 1])
+        total += (end - begin) * (g[k] + (g[k + 1] - g[k]) * (0.5 * (begin + end) - y[k]) / (y[k + 1] - y[k]))
+        k, begin = min(k + 1, size - 2), end
+    return total / (high - low)
+
+
+@kernel
+def unresolved(sep, n, per_modulus, strips):
+    """Return the mean pressure of the waves of the gap that strips do not see, over the largest pressure [-].
+
+    Strips see the mean gaps over their widths, and slopes that are linear between these. A sinusoidal wave whose slope is s
+    beyond them, and on which the gap closes, has pressures E* s/2 (Johnson 1985, 13.2). The mean of |s| is weighted with the
+    loads of the strips.
+    """
+    y, g, size = sep.y, sep.g, sep.y.size
+    left, weights, top = 0.0, 0.0, 0.0
+    gap, slope, middle = 0.0, 0.0, 0.0  # of the last strip, and between it and the one before
+    k, run = 0, 0  # run: strips since the last space between two of them
+    for i in range(n):
+        at, half, before = strips[Strip.Y, i], 0.5 * strips[Strip.DY, i], strips[Strip.Y, max(i - 1, 0)]
+        top = max(top, strips[Strip.P0, i])
+        if i == 0 or at - half - before - 0.5 * strips[Strip.DY, i - 1] > _LEAST_GAP * half:
+            run = 0
+        k = cubic.locate(y, size, max(at - half, y[0]), k)
+        last_gap, last_slope, last_middle = gap, slope, middle
+        gap = _mean_gap(sep, at - half, at + half, k)
+        run += 1
+        if run < 2:
+            continue
+        slope, middle = (gap - last_gap) / (at - before), 0.5 * (at + before)
+        if run < 3:
+            continue
+        load = strips[Strip.P0, i - 1] * strips[Strip.A, i - 1]
+        j = cubic.locate(y, size, last_middle, max(k - 1, 0))
+        while j < size - 1 and 0.5 * (y[j] + y[j + 1]) < middle:
+            place = 0.5 * (y[j] + y[j + 1])
+            if place >= last_middle:
+                seen = last_slope + (slope - last_slope) * (place - last_middle) / (middle - last_middle)
+                weight = load * (y[j + 1] - y[j])
+                left += weight * abs((g[j + 1] - g[j]) / (y[j + 1] - y[j]) - seen)
+                weights += weight
+            j += 1
+    return 0.5 * left / (math.pi * per_modulus * weights * top) if weights > 0.0 else 0.0
+
+
+@kernel
 def gap_error(sep, n, case, workspace, result):
     """Return the largest gap or overlap left, over the approach [-]; 1 at most.
 
@@ -148,4 +200,4 @@ def gap_error(sep, n, case, workspace, result):
     if missed >= 0:
         used = per_modulus * _displacement(y[missed], sep.x_c[missed], n, strips, vectors, plane)
         largest = max(largest, min((delta - (g[missed] - result.touch) - used) / delta, 1.0))
-    return largest
+    return max(largest, min(unresolved(sep, n, per_modulus, strips), 1.0))

@@ -32,15 +32,13 @@ from contact.kernels.rows import Event, Vector
 #: Load-weighted mean change of ln a, and change of the ends over the width, at which the iteration stops, if the case does
 #: not say another one.
 TOLERANCE = 1e-4
-#: Limits at which steps by the Jacobian of an ellipse stop: what mixing leaves of the step, over the tolerance, and the
-#: residuals, over its square root.
-LEFT, CLOSE = 2.0, 0.4
+#: Limits at which the iteration stops: what mixing leaves of the step, over the tolerance, which tells the error of the force,
+#: and, with steps by the Jacobian of an ellipse, the residuals, over its square root.
+LEFT, CLOSE = 1.0, 0.4
 #: Load-weighted mean change of ln a that counts as converged at the limit of iterations.
 ACCEPTABLE = 1e-3
-#: Iteration from which on skewed strips, up to 20 of a panel, are left at a load-weighted mean residual of CALM, wherever the
-#: ends go. More strips, and who asks for a smaller tolerance, wait until the ends are fixed. Before, a strip whose ln a steps
-#: by ZIGZAG is not at rest, however little of the load that changes.
-LATE, CALM, ZIGZAG = 12, 2e-3, 0.05
+#: Iteration up to which a strip whose ln a steps by ZIGZAG is not at rest, however little of the load that changes.
+LATE, ZIGZAG = 12, 0.05
 #: Iteration from which on the ends are fixed. At the corner of a punch and on rough gaps their rule has no steady solution.
 FREEZE = 16
 #: Iteration from which on the residuals are the steps, without mixing, which may go round in circles on rough gaps.
@@ -304,19 +302,18 @@ def accept(problem, state):
     """Return whether the unknowns are at rest and nothing lies outside the panels. Otherwise change them by the step.
 
     With the load-weighted mean |r| of half lengths and offsets, the largest move m of an end over its width, and the
-    tolerance ε, they are at rest if |r| < ε and m < 2ε. With steps by the Jacobian, whose error is a quarter of r, they are
-    if |r| and m < .4√ε and if the mixing leaves less than 2ε of the step. The last step is taken, but for a start that is at
-    rest: a call that is repeated has the same bits. Skewed strips are left at |r| < `CALM` from iteration `LATE` on, many of
-    them at |r| < `ACCEPTABLE` with fixed ends. The panel with the largest pressure must be at rest by itself,
-    and before every strip.
+    tolerance ε, they are at rest if |r| < ε and m < 2ε, with steps by the Jacobian, whose error is a quarter of r, if |r| and
+    m < .4√ε, and in both cases if the mixing leaves less than ε of the step. The last step is taken, but for a start that is at
+    rest: a call that is repeated has the same bits. Skewed strips with fixed ends are left at |r| < `ACCEPTABLE`. The panel
+    with the largest pressure must be at rest by itself, and before every strip.
     """
     age, error, moved, tolerance = state.number - state.begun, state.error, state.moved, problem.tolerance
     close = CLOSE * math.sqrt(tolerance)
-    exact = state.cut == 0 and error < tolerance * state.load and moved < 2.0 * tolerance
-    settled = state.descending != 0 and state.left < LEFT * tolerance and error < close * state.load and moved < close
-    few = problem.workspace.rule.across.nodes.size <= COARSE and tolerance >= TOLERANCE
-    calm = error < (CALM if few else ACCEPTABLE) * state.load and (few or moved < close)
-    calm = calm and problem.skew > 0.0 and age >= (LATE if few else FREEZE) and state.cut == 0
+    done = state.cut == 0 and state.left < LEFT * tolerance
+    exact = done and error < tolerance * state.load and moved < 2.0 * tolerance
+    settled = done and state.descending != 0 and error < close * state.load and moved < close
+    calm = problem.skew > 0.0 and age >= FREEZE and state.cut == 0
+    calm = calm and error < ACCEPTABLE * state.load and moved < close
     state.found = 0
     if _part(problem, state):
         return False

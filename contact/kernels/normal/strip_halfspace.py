@@ -274,7 +274,7 @@ def _solve(sep, case, load, brief, workspace, result):
         forget(memory)
         return n_strips
     n_panels = state.n_panels
-    left = state.last != 0 and state.converged == 0  # at CALM: no call starts from it
+    left = state.last != 0 and state.converged == 0  # nearly at rest: no call starts from it
     early = not left and state.number - state.begun < FREEZE
     remember(n_panels if early else 0, n, start_low, start_high, skew > 0.0, workspace)
     lone = skew > 0.0 and _level_lone(n, n_panels, space.vectors)

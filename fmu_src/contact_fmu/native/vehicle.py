@@ -26,10 +26,10 @@ from contact_models.vehicle.kernels.between import (
     count_around,
     expect,
     keep_solution,
+    lay_last,
     take_expected,
 )
 from contact_models.vehicle.kernels.layout import Book
-from contact_models.vehicle.kernels.memory import lay_last
 from contact_models.vehicle.kernels.wheels import report_wheel, share_of_stick
 from ..rows import identifier
 from ..tables import wheel_rail_pair as pair_table

@@ -11,8 +11,7 @@ from contact.compile.pointers import integers_of
 from contact.core import arranging, group
 from contact.kernels.block import ahead, matrix, records, vector
 from contact.kernels.records import MOTION
-from contact_models.vehicle.kernels.layout import BODY, ELEMENT, LINK, Book, Model, TrackRow
-from contact_models.vehicle.kernels.memory import lay_scratch, lay_state
+from contact_models.vehicle.kernels.layout import BODY, ELEMENT, LINK, Book, Model, TrackRow, lay_scratch, lay_state
 
 _INTEGER = np.dtype([("value", "i8")])
 _N_ROW = len(TrackRow)

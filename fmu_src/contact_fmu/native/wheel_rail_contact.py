@@ -8,7 +8,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from enum import IntEnum, auto
-from typing import Any, NamedTuple
+from typing import Annotated, Any, NamedTuple
 
 import numpy as np
 from numba import carray
@@ -17,7 +17,7 @@ import contact
 from contact.core import arranging, group
 from contact.damage import DamageParameters
 from contact.kernels import block, memory
-from contact.kernels.arrays import Samples, SolverArrays
+from contact.kernels.arrays import Cube, Damages, Matrix, Numbers, Parameters, Samples, SolverArrays
 from contact.kernels.damage.assess import damage_kernel
 from contact.kernels.entries.layout import fill, forget_forged, lay_out
 from contact.kernels.enumerations import FrictionLaw, LoadKind
@@ -33,8 +33,8 @@ from contact.kernels.jacobian import (
     subtract_creepages,
 )
 from contact.kernels.pipeline import solve_case
-from contact.kernels.records import DAMAGE, DAMAGE_PARAMETERS, MAX_PATCHES, RESULT
-from contact.kernels.rows import DamageField, Field, Strip
+from contact.kernels.records import DAMAGE, DAMAGE_PARAMETERS, RESULT
+from contact.kernels.rows import Field, Strip
 from contact.kernels.separation import HERTZIAN_POINTS, fill_hertzian
 from contact.kernels.solver import for_forces
 from ..tables.solver import SURFACE
@@ -91,35 +91,26 @@ class Arrays(NamedTuple):
     """All arrays in the working memory of an instance."""
 
     solver: SolverArrays
-    samples: Samples
-    damage_parameters: Any
-    damage_fields: Any
-    damage: Any
-    count: Any  # number of strips
-    shown: Any  # one field as the host sees it
-    derived: Any  # what the host sees of it: `components.CONTACT_DERIVED`
+    samples: Annotated[Samples, "size.n_samples"]
+    damage_parameters: Annotated[Parameters, "1"]
+    damage_fields: Annotated[Cube, "len(DamageField), MAX_PATCHES * size.n_strips, size.n_elements"]
+    damage: Annotated[Damages, "1"]
+    count: Annotated[Numbers, "1"]  # number of strips
+    derived: Annotated[Matrix, "ROWS, COLUMNS + 1"]  # what the host sees of it: `components.CONTACT_DERIVED`
+    shown: Annotated[Matrix, "MAX_PATCHES * size.n_strips, size.n_elements"]  # one field as the host sees it
+
+
+_lay_arrays = block.layout(Arrays, "size, solver", {**globals(), "COLUMNS": COLUMNS})
 
 
 @arranging
 def _lay(work, size, kept, data):
     """Lay out all arrays in `work`. Return them, the indices of `shown` and `derived`, and the total size in numbers."""
     workspace, _, end = lay_out(work, kept.size, kept, size, data)
-    n, capacity = size.n_samples, MAX_PATCHES * size.n_strips
-    y, end = block.vector(work, end, n)
-    g, end = block.vector(work, end, n)
-    A, end = block.vector(work, end, n)
-    x_c, end = block.vector(work, end, n)
-    tilt, end = block.vector(work, end, n)
     solver, end = memory.lay_solver(work, end, size, workspace)
-    parameters, end = block.records(work, end, 1, DAMAGE_PARAMETERS)
-    damage_fields, end = block.cube(work, end, len(DamageField), capacity, size.n_elements)
-    damage, end = block.records(work, end, 1, DAMAGE)
-    count, end = block.vector(work, end, 1)
-    derived, at_shown = block.matrix(work, end, ROWS, COLUMNS + 1)
-    shown, total = block.matrix(work, at_shown, capacity, size.n_elements)
-    samples = Samples(y, g, A, x_c, tilt)
-    a = Arrays(solver, samples, parameters, damage_fields, damage, count, shown, derived)
-    return a, (at_shown, end), total
+    a, total = _lay_arrays(work, end, size, solver)
+    at_shown = total - a.shown.size
+    return a, (at_shown, at_shown - a.derived.size), total
 
 
 @arranging

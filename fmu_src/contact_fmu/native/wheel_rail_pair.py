@@ -8,12 +8,13 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from typing import Any, NamedTuple
+from typing import Annotated, Any, NamedTuple
 
 from numba import carray
 
 from contact.core import arranging, group
 from contact.kernels import block, memory
+from contact.kernels.arrays import Cube, Matrix, Numbers
 from contact.kernels.block import ahead
 from contact.kernels.entries.layout import fill
 from contact.kernels.entries.pair import fill_profiles, lay_derivatives, lay_pair
@@ -38,24 +39,23 @@ class Start(NamedTuple):
     It holds the warm start, the bins, the numbers of nodes that can touch, the whole wheel and the inclined rail.
     """
 
-    kept: Any
-    bins: Any
-    counts: Any
-    wheel: Any
-    turned: Any
+    kept: Annotated[Numbers, "memory.pair_memory_size(piece)"]
+    bins: Annotated[Cube, "2, len(Bin), n_bins"]
+    counts: Annotated[Numbers, "2"]
+    wheel: Matrix
+    turned: Annotated[Matrix, "N_PROFILE_ROWS, n_rail"]
+
+
+_lay_arrays = block.layout(Start, "piece, n_bins, wheel, n_rail", globals())
 
 
 @arranging
 def _lay_start(work, piece, n_bins, resources):
     """Lay out `Start` in `work`. Return it and the index where it ends."""
-    kept, end = block.vector(work, 0, memory.pair_memory_size(piece))
-    bins, end = block.cube(work, end, 2, len(Bin), n_bins)
-    counts, end = block.vector(work, end, 2)
     n_wheel = int(carray(resources, (1,))[0])
     wheel = carray(ahead(resources, 1), (N_PROFILE_ROWS, n_wheel))
     n_rail = int(carray(ahead(resources, 1 + N_PROFILE_ROWS * n_wheel), (1,))[0])
-    turned, end = block.matrix(work, end, N_PROFILE_ROWS, n_rail)
-    return Start(kept, bins, counts, wheel, turned), end
+    return _lay_arrays(work, 0, piece, n_bins, wheel, n_rail)
 
 
 @arranging

@@ -12,6 +12,7 @@ from contact.cli.document import document
 from contact.cli.output import INTERRUPTED, MISSING, NOT_TRUSTED, drawing, reported, require_extra, stop
 from contact.cli.progress import progress_bar
 from contact.errors import ContactError
+from contact.study.files import require_folder
 from ..runs import checkpoint
 from ..runs.commands import Declared, Fresh, require_reliable, results_of, resumable, warn, write_both, wrote
 from ..runs.trust import NotTrusted
@@ -42,6 +43,7 @@ def wear(
     drawing()
     require_extra("xarray")
     folder = out or Path("out") / file.stem
+    require_folder(folder)
     life = Life(declared_set.read(file))
     path, fingerprint = folder / "checkpoint.npz", life.plan.fingerprint
     saved = checkpoint.read(path, fingerprint, fresh)

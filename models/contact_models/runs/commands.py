@@ -18,6 +18,8 @@ from contact.cli import options as opt
 from contact.cli.document import document
 from contact.cli.output import INTERRUPTED, NOT_TRUSTED, drawing, reported, require_extra, stop
 from contact.cli.progress import progress_bar
+from contact.errors import ContactError
+from contact.study.files import require_folder
 from . import checkpoint, scenario
 from .progress import Progress, time_left
 from .result import ENDINGS, write_series
@@ -61,6 +63,9 @@ def run(
     drawing()
     require_extra("xarray")
     folder, table = _places(out or Path("out") / file.stem)
+    require_folder(folder)
+    if table is not None and table.is_dir():
+        raise ContactError(f"{table} cannot be written: it is a folder")
     started = VehicleRun(scenario.read(file), threads)
     complete(started, folder / "checkpoint.npz", fresh, every)
     _finish(started, folder, critical_speed)

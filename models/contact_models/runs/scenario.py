@@ -83,9 +83,15 @@ class Profiles:
     def _load(self, folder: Path, name: str, kind: Kind) -> Profile:
         names = ("wheel", "rail", "left_rail", "wheel_rotation", "rail_rotation")
         given: dict[str, Any] = {key: value for key, value in vars(self).items() if key not in names}
+        every = [self._place(folder, each) for each in (self.wheel, self.rail, self.left_rail) if each]
+        profile.require_file(every, given)
         given["rotation"] = self.wheel_rotation if kind == "wheel" else self.rail_rotation
+        return profile.load(self._place(folder, name), kind, **given)
+
+    @staticmethod
+    def _place(folder: Path, name: str) -> str:
         is_file = (folder / name).is_file() or ("." in name and not profile.is_standard(name))
-        return profile.load(str(folder / name) if is_file else name, kind, **given)
+        return str(folder / name) if is_file else name
 
 
 @dataclass(frozen=True, kw_only=True)

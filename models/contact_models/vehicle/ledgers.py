@@ -7,7 +7,7 @@ import numpy as np
 from contact.accumulation import MAXIMA, SUMS, Histogram
 from contact.inputs.material import Material
 from contact.instance import workspace
-from contact.kernels.memory import Ledger
+from contact.kernels.arrays import Ledger
 from .kernels.wheel_arrays import WheelArrays, bins
 
 BODIES = ("wheel", "rail")

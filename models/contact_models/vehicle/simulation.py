@@ -20,18 +20,17 @@ from contact.inputs.material import STEEL, Material
 from contact.inputs.options import N_ELEMENTS, N_STRIPS, REFERENCE_SPEED
 from contact.instance import workspace
 from contact.instance.ownership import OwnsArrays, one_thread
+from contact.kernels.arrays import Ledger
 from contact.kernels.enumerations import Height
-from contact.kernels.memory import Ledger
 from contact.kernels.records import GIVEN
 from contact.pair import PairSolution, WheelRailPair
 from contact.registry import DEFAULT_NORMAL, DEFAULT_TANGENTIAL
 from .assembly import Assembly, assemble
 from .declared import SIDES, VehicleDeclaration
 from .kernels import motion
-from .kernels.between import LONGEST_PACE, PACE, TOLERANCE, LastSolution
+from .kernels.between import LONGEST_PACE, PACE, TOLERANCE, LastSolution, lay_last
 from .kernels.frames import speed_at
-from .kernels.layout import Axis, Book, Model, Scratch, State, TrackRow
-from .kernels.memory import lay_last, lay_scratch, lay_state
+from .kernels.layout import Axis, Book, Model, Scratch, State, TrackRow, lay_scratch, lay_state
 from .kernels.wheel_arrays import WheelArrays, gather
 from .notebook import of_simulation
 from .sections import RailSection, require_apart

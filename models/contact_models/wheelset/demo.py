@@ -21,6 +21,7 @@ from contact.cli.output import deliver, drawing, reported, stop
 from contact.cli.progress import progress_bar
 from contact.cli.tables import show_table
 from contact.geometry.wheelset import Irregularity, Pose, Velocity
+from contact.study.files import require_folder
 from ..runs.scenario import Scenario
 from ..vehicle import linear
 from ..vehicle.coupling import QUESTION, AskingVehicle, OpenVehicle
@@ -58,30 +59,28 @@ def demo(
     as_json: opt.Json = False,
 ) -> None:
     """Run a wheelset above its critical speed into flange contact: one Wheelset FMU and two WheelRailPair FMUs."""
+    require_folder(out)
     plot = drawing()
     console = Console(stderr=True)
-    try:
-        given = scenario(speed, friction)
-        with ExitStack() as stack:
-            wheelset, contacts = _objects(given, lateral) if python else _fmus(stack, fmus, given, lateral)
-            chosen = cast(Scheme, scheme)  # `master.run` refuses other values
-            history, durations = _run(wheelset, contacts, step, seconds, chosen)
-        out.mkdir(parents=True, exist_ok=True)
-        history.write_csv(out / "wheelset.csv")
-        _histories(plot, history).savefig(out / "time_histories.png")
-        files = ["wheelset.csv", "time_histories.png"]
-        for moment in moments(history):
-            _picture(plot, history, moment, given).savefig(out / f"{moment.name}.png")
-            files.append(f"{moment.name}.png")
-        values = _summary(history, given, durations)
-        deliver(
-            {"summary": values, "files": [str(out / name) for name in files]},
-            show=lambda console: show_table("wheelset S1002 on 60E1", _HEADINGS, list(values.items()), console),
-            as_json=as_json,
-        )
-        console.print("wrote " + ", ".join(str(out / name) for name in files))
-    except OSError as error:
-        stop(f"{error.filename}: {error.strerror}", 1)
+    given = scenario(speed, friction)
+    with ExitStack() as stack:
+        wheelset, contacts = _objects(given, lateral) if python else _fmus(stack, fmus, given, lateral)
+        chosen = cast(Scheme, scheme)  # `master.run` refuses other values
+        history, durations = _run(wheelset, contacts, step, seconds, chosen)
+    out.mkdir(parents=True, exist_ok=True)
+    history.write_csv(out / "wheelset.csv")
+    _histories(plot, history).savefig(out / "time_histories.png")
+    files = ["wheelset.csv", "time_histories.png"]
+    for moment in moments(history):
+        _picture(plot, history, moment, given).savefig(out / f"{moment.name}.png")
+        files.append(f"{moment.name}.png")
+    values = _summary(history, given, durations)
+    deliver(
+        {"summary": values, "files": [str(out / name) for name in files]},
+        show=lambda console: show_table("wheelset S1002 on 60E1", _HEADINGS, list(values.items()), console),
+        as_json=as_json,
+    )
+    console.print("wrote " + ", ".join(str(out / name) for name in files))
 
 
 def _fmus(

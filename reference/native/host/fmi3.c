@@ -99,7 +99,7 @@ static void threads(void)
     for (int i = 0; i < N_INSTANCES; i++) FreeInstance(crowd[i]);
 }
 
-/* ---------------------------------------------------------------- random calls, speed */
+/* ---------------------------------------------------------------- random calls, derivatives */
 
 static fmi3Instance with_few_strips(fmi3Instance c)
 {
@@ -193,31 +193,6 @@ static void adjoint(void)
     FreeInstance(c);
 }
 
-static void speed(int n)
-{
-    const fmi3ValueReference geometry[] = {V_geometry_g, V_geometry_A}, tractions[] = {V_field_pressure, V_field_traction_x,
-                                                                                      V_field_traction_y};
-    static double values[2 * SAMPLES], fields[3 * ELEMENTS];
-    double begin;
-    fmi3Instance c = make(CS, logger);
-    EnterInitializationMode(c, fmi3False, 0.0, 0.0, fmi3True, 10.0);
-    ExitInitializationMode(c);
-    GetFloat64(c, geometry, 2, values, 2 * SAMPLES);
-    set(c, V_creepage_longitudinal, 1e-3);
-    set(c, V_creepage_lateral, -5e-4);
-    set(c, V_creepage_spin, 0.2);
-    begin = now();
-    for (int i = 0; i < n; i++) SetFloat64(c, geometry, 2, values, 2 * SAMPLES);
-    printf("set geometry %.2f us\n", (now() - begin) / n);
-    begin = now();
-    for (int i = 0; i < n; i++) step(c, 1e-3 * i, 1e-3);
-    printf("step %.2f us\n", (now() - begin) / n);
-    begin = now();
-    for (int i = 0; i < n; i++) GetFloat64(c, tractions, 3, fields, 3 * ELEMENTS);
-    printf("get pressure and tractions %.2f us\n", (now() - begin) / n);
-    FreeInstance(c);
-}
-
 int main(int n_arguments, char **arguments)
 {
     void *library = n_arguments > 4 ? open_library(arguments[1]) : NULL;
@@ -233,7 +208,6 @@ int main(int n_arguments, char **arguments)
     else if (!strcmp(command, "adjoint")) adjoint();
     else if (!strcmp(command, "threads")) threads();
     else if (!strcmp(command, "random_calls")) random_calls(argument);
-    else if (!strcmp(command, "speed")) speed(argument);
     else return printf("%s is not a command\n", command), 2;
     return failures != 0;
 }

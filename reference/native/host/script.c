@@ -2,17 +2,10 @@
  * It makes an instance for each location of the resources, and goes on with the last one.
  * Each line is a letter, a value reference or a count, and numbers: s REFERENCE VALUE sets a Real, g REFERENCE prints it,
  * d TIME STEP does a step, t TIME sets the time. i initialises; parameters are set before it. */
-#include <stdio.h>
-#include <stdlib.h>
-
+#include "common.h"
 #include "fmi2FunctionTypes.h"
-#ifdef _WIN32
-#include <windows.h>
-#define FIND(type, name) type *name = (type *)(void *)GetProcAddress(library, "fmi2" #name)
-#else
-#include <dlfcn.h>
-#define FIND(type, name) type *name = (type *)dlsym(library, "fmi2" #name)
-#endif
+
+#define FIND(type, name) type *name = (type *)find(library, "fmi2" #name)
 #define DO(call) \
     do { \
         if ((call) > fmi2Warning) return printf("%s\n", #call), 1; \
@@ -28,11 +21,7 @@ static void logger(fmi2ComponentEnvironment environment, fmi2String instance, fm
 int main(int n_arguments, char **arguments)
 {
     if (n_arguments < 5) return puts("script LIBRARY GUID KIND RESOURCES…"), 2;
-#ifdef _WIN32
-    HMODULE library = LoadLibraryA(arguments[1]);
-#else
-    void *library = dlopen(arguments[1], RTLD_NOW | RTLD_LOCAL);
-#endif
+    void *library = open_library(arguments[1]);
     if (!library) return puts("the library cannot be loaded"), 2;
     FIND(fmi2InstantiateTYPE, Instantiate);
     FIND(fmi2SetupExperimentTYPE, SetupExperiment);

@@ -11,11 +11,12 @@ from __future__ import annotations
 
 import math
 from enum import IntEnum
-from typing import NamedTuple
+from typing import Annotated, NamedTuple
 
 from contact.core import group, kernel
 from contact.kernels import kalker
 from contact.kernels.arrays import Givens, Matrix, Numbers
+from contact.kernels.block import layout
 from contact.kernels.geometry.search import axle
 from .layout import ELASTIC
 
@@ -58,21 +59,28 @@ class Load(IntEnum):
 
 @group
 class LastSolution(NamedTuple):
-    """The last solution of every wheel, besides its contacts, and the prediction of the next."""
+    """The last solution of every wheel, besides its contacts, and the prediction of the next. None where all is zero."""
 
-    asked: Givens  # one each
-    answers: Matrix  # shape (wheels, len(Load))
-    drifts: Matrix  # per step
-    expected: Matrix
-    ages: Numbers  # steps since the last solution; 0 where there is none
-    paces: Numbers  # steps from the last solution to the next
-    noises: Numbers  # mean error of the predicted force after one step [N]
-    powers: Numbers  # of the normal force over the approach, less Hertz's 1.5
-    slopes: Numbers  # derivative of the expected normal force by the power [N]
-    loads: Numbers  # static load [N]
-    solutions: Numbers  # their number so far
-    pending: Numbers  # amount of past steps that is not counted yet, less that of coming steps that is (`count_around`)
-    limits: Numbers  # largest of `paces` (1: every step is a solution), and tolerance of a force over the static load
+    asked: Annotated[Givens, "n_wheels"]
+    answers: Annotated[Matrix, "n_wheels, len(Load)"]
+    drifts: Annotated[Matrix, "n_wheels, len(Load)"]  # per step
+    expected: Annotated[Matrix, "n_wheels, len(Load)"]
+    ages: Annotated[Numbers, "n_wheels"]  # steps since the last solution; 0 where there is none
+    paces: Annotated[Numbers, "n_wheels"]  # steps from the last solution to the next
+    noises: Annotated[Numbers, "n_wheels"]  # mean error of the predicted force after one step [N]
+    powers: Annotated[Numbers, "n_wheels"]  # of the normal force over the approach, less Hertz's 1.5
+    slopes: Annotated[Numbers, "n_wheels"]  # derivative of the expected normal force by the power [N]
+    loads: Annotated[Numbers, "n_wheels"]  # static load [N]
+    solutions: Annotated[Numbers, "n_wheels"]  # their number so far
+    pending: Annotated[
+        Numbers, "n_wheels"
+    ]  # amount of past steps that is not counted yet, less that of coming steps that is (`count_around`)
+    limits: Annotated[
+        Numbers, "2"
+    ]  # largest of `paces` (1: every step is a solution), and tolerance of a force over the static load
+
+
+lay_last = layout(LastSolution, "n_wheels", globals())
 
 
 @kernel

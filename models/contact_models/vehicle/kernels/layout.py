@@ -14,6 +14,7 @@ import numpy as np
 
 from contact.core import Shape, group
 from contact.kernels.arrays import Cube, Givens, Integers, Matrix, Numbers
+from contact.kernels.block import layout
 
 
 class Axis(IntEnum):
@@ -208,23 +209,27 @@ class Model(NamedTuple):
 class State(NamedTuple):
     """What carries over from one step to the next."""
 
-    q: Matrix  # coordinates, shape (bodies, 6)
-    u: Matrix  # velocities, shape (bodies, 6)
-    inner: Matrix  # elongation of the dampers of series elements [m], shape (elements, 3)
-    rails: Cube  # y, z and their rates under each wheel, shape (wheelsets, 2, 4)
-    loads: Matrix  # normal forces of the last step [N], shape (wheelsets, 2)
-    sums: Matrix  # over the steps since it was cleared, shape (2 wheelsets, len(Sum))
-    books: Numbers
-    gains: Matrix  # by how much the velocities of the wheelsets grew in the last step, shape (wheelsets, 6)
+    q: Annotated[Matrix, "n_bodies, 6"]  # coordinates
+    u: Annotated[Matrix, "n_bodies, 6"]  # velocities
+    inner: Annotated[Matrix, "n_elements, 3"]  # elongation of the dampers of series elements [m]
+    rails: Annotated[Cube, "n_axles, 2, 4"]  # y, z and their rates under each wheel
+    loads: Annotated[Matrix, "n_axles, 2"]  # normal forces of the last step [N]
+    sums: Annotated[Matrix, "2 * n_axles, len(Sum)"]  # over the steps since it was cleared
+    books: Annotated[Numbers, "len(Book)"]
+    gains: Annotated[Matrix, "n_axles, 6"]  # by how much the velocities of the wheelsets grew in the last step
 
 
 @group
 class Scratch(NamedTuple):
-    """Arrays of one step."""
+    """Arrays of one step. Forces and wheels are those of the last step for the next one."""
 
-    frames: Matrix  # shape (bodies, len(Frame))
-    forces: Matrix  # generalised, shape (bodies, 6)
-    given: Givens  # what the contact of each wheel is asked, in the order of `wheels`
-    seats: Seats  # the rail under each wheel
-    wheels: Wheels  # one for each wheel: axle by axle, right before left
-    power: Numbers  # damper, dissipation, elastic energy of this step
+    frames: Annotated[Matrix, "n_bodies, len(TrackFrame)"]
+    forces: Annotated[Matrix, "n_bodies, 6"]  # generalised
+    given: Annotated[Givens, "n_wheels"]  # what the contact of each wheel is asked, in the order of `wheels`
+    seats: Annotated[Seats, "n_wheels"]  # the rail under each wheel
+    wheels: Annotated[Wheels, "n_wheels"]  # one for each wheel: axle by axle, right before left
+    power: Annotated[Numbers, "3"]  # damper, dissipation, elastic energy of this step
+
+
+lay_state = layout(State, "n_bodies, n_elements, n_axles", globals())
+lay_scratch = layout(Scratch, "n_bodies, n_wheels", globals())
