@@ -89,7 +89,7 @@ FIRST: dict[str, First] = {
             ),
             Example(
                 {"pose.y": 5e-3},
-                {"wheel.Q": 8.085e4, "wheel.Y": 5519.0, "force.x": 2.101e4},
+                {"wheel.Q": 8.085e4, "wheel.Y": 5529.0, "force.x": 2.101e4},
                 "5 mm to the right: the wheel rolls on a larger radius and is pushed forward",
             ),
         ),
