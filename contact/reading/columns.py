@@ -16,6 +16,7 @@ import numpy as np
 
 from contact.arrays import Array
 from contact.errors import ContactError
+from contact.reading.beside import second_profile
 from contact.reading.text import lines_of
 
 LARGEST_SERIES = 200e6  # bytes
@@ -208,7 +209,8 @@ def rows_of(
         told.append(
             ("the first column counts the rows; y and z were read from columns 2 and 3", "columns=(2, 3) says so")
         )
-    if columns is None and not quotes and (other := _beside(texts, dialect, chosen)):
+    some = [[number(cell, dialect.comma) for cell in dialect.cells(text)] for text in texts[:: len(texts) // 400 + 1]]
+    if columns is None and not quotes and (other := second_profile(some, chosen)):
         seen = "columns {} and {} may be a second profile; y and z were read from columns {} and {}"
         told.append((seen.format(*other, chosen[0] + 1, chosen[1] + 1), f"columns={other}"))
     lines = [_line(k, text, dialect, chosen) for k, text in given]
@@ -301,33 +303,6 @@ def _counted(texts: Sequence[str], dialect: Dialect) -> bool:
         step.size and np.median(step) == 1 and np.mean(step == 1) > 0.9 and np.mean(third) > 0.9
         and int(rows[0][0]) in (0, 1) and abs(forwards.mean()) > 0.8
     )  # fmt: skip
-
-
-def _beside(texts: Sequence[str], dialect: Dialect, chosen: tuple[int, int]) -> tuple[int, int] | None:
-    """Return the columns, from 1, of a second profile beside the chosen one: another y with its z, or another z."""
-    rows = [[number(cell, dialect.comma) for cell in dialect.cells(text)] for text in texts[:: len(texts) // 400 + 1]]
-    n = max(3, sorted(map(len, rows))[len(rows) // 2] if rows else 0)
-    whole = np.array([row for row in rows if len(row) == n and None not in row], dtype=np.float64).reshape(-1, n)
-    whole = whole[np.isfinite(whole).all(axis=1)]
-    if len(whole) < 8:
-        return None
-    away = np.abs(whole[:, chosen[0]] - np.median(whole[:, chosen[0]]))
-    whole = whole[away <= 6.0 * np.median(away)]  # without rows like -999 -999 -999
-    deviation = whole - whole.mean(axis=0)
-    covariance = np.abs(deviation.T @ deviation)
-    size = np.sqrt(np.diag(covariance))
-
-    def is_like(k: int, of: int) -> bool:
-        """Whether a column runs like another one. The angle of a rail has a correlation of .92 with y."""
-        return bool(0.4 * size[of] < size[k] < 2.5 * size[of] and covariance[k, of] > 0.97 * size[k] * size[of])
-
-    y, z = chosen
-    for k in range(z + 1, n):
-        if k + 1 < n and is_like(k, y):
-            return k + 1, k + 2
-        if is_like(k, z):
-            return y + 1, k + 1
-    return None
 
 
 def _require_clear_commas(line: Line, dialect: Dialect, where: str) -> None:
