@@ -26,7 +26,7 @@ from contact.cli.geometry import geometry as points
 from contact.cli.in_time import in_time
 from contact.cli.inp import inp
 from contact.cli.lut import lut
-from contact.cli.output import deliver, drawing, reported
+from contact.cli.output import deliver, drawing, reported, require_trusted
 from contact.cli.plugins import add_plugins
 from contact.cli.problem import Position
 from contact.cli.profile_check import check
@@ -38,6 +38,7 @@ from contact.errors import require_number
 from contact.inputs.creepage import Creepage
 from contact.inputs.separation import Separation
 from contact.registry import DEFAULT_NORMAL, DEFAULT_TANGENTIAL, methods
+from contact.results import Status
 
 PICTURE_RESOLUTION = {"n_strips": 60, "n_elements": 60}
 
@@ -183,6 +184,7 @@ def curve(
             values, curves, xlabel=axis, ylabel=f"{ordinate} [-]", limit=surface.friction, title=f"{held}, {normal}"
         ),
     )
+    require_trusted([Status[row["status"]] for row in rows], "points")
 
 
 app.command()(compare)

@@ -14,6 +14,7 @@ from contact.cli import arguments
 from contact.cli import options as opt
 from contact.cli.output import deliver, drawing, reported
 from contact.cli.tables import show_table
+from contact.errors import require_number
 from contact.geometry import conicity as conicity_of
 from contact.geometry import contact_points, equivalent_conicity, nonlinearity, profile, steering
 from contact.geometry.wheelset import TAPE_FROM_FLANGE_BACK
@@ -71,7 +72,7 @@ def geometry(
     Example:  contact geometry --wheel 1/40 --rail UIC60 --inclination 1/20 --max 8e-3 --out points.png
     """
     pair = wheelset.both()
-    n = max(1, round(reach / step))
+    n = round(reach / require_number("step", step, 1e-6, reach))
     found = contact_points(**pair, y=np.linspace(-reach, reach, 2 * n + 1))
     columns = found.columns()
     output.deliver(

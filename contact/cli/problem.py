@@ -137,7 +137,7 @@ def sweep(
             creepage = replace(start, **{over: float(value)})
             s = solve(separation, creepage, load=load, **options | {"tangential": method})
             forces = {"N": s.N, "Fx": s.Fx, "Fy": s.Fy, "Mz": s.Mz, "slip_ratio": s.slip_ratio}
-            rows.append({"tangential": method, **asdict(creepage), **forces})
+            rows.append({"tangential": method, **asdict(creepage), **forces, "status": s.status.name})
     return rows
 
 

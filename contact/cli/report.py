@@ -11,7 +11,7 @@ from rich.markup import escape
 
 from contact.cli.arguments import Output
 from contact.cli.document import flat
-from contact.cli.output import drawing
+from contact.cli.output import drawing, require_trusted
 from contact.cli.problem import Touch
 from contact.cli.tables import show_table
 from contact.damage import evaluate
@@ -91,6 +91,7 @@ def deliver_patches(
         rows=lambda: [flat(row) for row in patches],
         figure=figure or (lambda: drawing().patch([t.solution for t in touches], [t.name for t in touches])),
     )
+    require_trusted([touch.solution.status for touch in touches], "patches")
 
 
 def _show(patches: Sequence[dict[str, Any]], names: Sequence[str], title: str, console: Console) -> None:

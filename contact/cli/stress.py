@@ -12,7 +12,7 @@ from rich.console import Console
 from contact.cli import arguments
 from contact.cli import options as opt
 from contact.cli.document import flat
-from contact.cli.output import drawing, reported
+from contact.cli.output import drawing, reported, require_trusted
 from contact.cli.problem import Touch
 from contact.cli.report import Quantity, show_columns
 from contact.errors import require_number
@@ -64,6 +64,7 @@ def stress(
         rows=lambda: [flat(row) for row in found],
         figure=figure,
     )
+    require_trusted([touch.solution.status for touch in touches], "patches")
 
 
 def stresses(touch: Touch, body: str, slope: float, line: Endurance | None) -> dict[str, Any]:

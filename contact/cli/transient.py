@@ -6,7 +6,7 @@ from typing import Any
 
 from contact.cli import arguments, report
 from contact.cli import options as opt
-from contact.cli.output import drawing, reported
+from contact.cli.output import drawing, reported, require_trusted
 from contact.cli.problem import load_or_standard
 from contact.errors import ContactError, require_number
 from contact.halfspace import Transient
@@ -72,3 +72,4 @@ def transient(
         rows=lambda: rows,
         figure=lambda: drawing().curve(at, curves, limit=friction, **axes),
     )
+    require_trusted([solution.status for _, solution in solutions], "steps")

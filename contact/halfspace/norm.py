@@ -154,6 +154,8 @@ def _at_load(gap: Array, ground: Ground, total: float, tolerance: float, start: 
         p, approach = np.zeros_like(gap), least + _rough_overlap(gap - least, ground, total)
     iterations, converged = 0, False
     for _ in range(MAX_STEPS):
+        if approach <= least:  # the load is too small for an overlap that a float holds
+            return Normal(np.zeros(gap.shape), least, 0.0, iterations, True)
         p, n, solved = in_window(gap - approach, ground, p, tolerance)
         iterations += n
         rates = stiffness(p, ground)

@@ -2,15 +2,18 @@
 
 import csv
 import json
+from dataclasses import replace
 
 import pytest
 
 import contact
 import contact.stress
+from contact.halfspace import Transient
 
 typer = pytest.importorskip("typer")
 
 
+from contact.cli import problem  # noqa: E402
 from tests.command_line import call  # noqa: E402
 
 
@@ -105,3 +108,25 @@ def test_a_decimal_comma_is_named():
 
 def test_a_standing_wheelset_is_told_to_have_no_creep_forces():
     assert "contact: warning: --speed 0: the wheelset stands" in call("solve", "--speed", 0).stderr
+
+
+@pytest.mark.parametrize(
+    "words",
+    [
+        ("solve", "--curvatures", 1, 1),
+        ("patch", "--out", "{}/patch.png"),
+        ("stress", "--curvatures", 1, 1),
+        ("curve", "--points", 2),
+        ("transient", "--distance", 1e-3),
+    ],
+)
+def test_results_that_are_not_to_be_trusted_end_with_3(words, monkeypatch, tmp_path):
+    """All solutions of the command are given the status UNREACHABLE."""
+
+    def untrusted(made):
+        return lambda *args, **kwargs: replace(made(*args, **kwargs), status=contact.Status.UNREACHABLE)
+
+    monkeypatch.setattr(problem, "solve", untrusted(problem.solve))
+    monkeypatch.setattr(Transient, "roll", untrusted(Transient.roll))
+    answer = call(*(str(word).format(tmp_path) for word in words), code=3)
+    assert "are not to be trusted: unreachable" in answer.stderr
