@@ -169,7 +169,7 @@ def test_the_command_line(pair, tmp_path):
     assert "side = 'both'" in call(*words, "--side", "both", code=2).stderr
     file.write_text("time,pose.y\n0\n")
     assert "has 1 values for 2 names" in call("in-time", file, code=2).stderr
-    assert "cannot be read" in call("in-time", tmp_path / "none.csv", code=2).stderr
+    assert "is missing" in call("in-time", tmp_path / "none.csv", code=2).stderr
 
 
 def test_a_pair_refuses_columns_that_it_does_not_take():
