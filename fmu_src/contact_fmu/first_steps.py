@@ -102,10 +102,10 @@ FIRST: dict[str, First] = {
         (
             Example(
                 {},
-                {"wheel.Q": 8.008e4, "wheel.Y": 495.4, "force.x": -210.0, "wheelset.z": 2.466e-4},
+                {"wheel.Q": 8.008e4, "wheel.Y": 495.4, "force.x": -196.4, "wheelset.z": 2.466e-4},
                 "the start values",
             ),
-            Example({"pose.y": 5e-3}, {"wheel.Q": 8.085e4, "wheel.Y": 5515.0, "force.x": 2.101e4}, "5 mm to the right"),
+            Example({"pose.y": 5e-3}, {"wheel.Q": 8.085e4, "wheel.Y": 5525.0, "force.x": 2.101e4}, "5 mm to the right"),
         ),
         852.0,
         ("The numbers are for surfaces that do not change along the way, S1002 on 60E1 at 1:40.",),
