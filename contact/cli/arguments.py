@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from dataclasses import dataclass, fields, replace
 from typing import Any, cast
 
@@ -218,9 +218,9 @@ def require_use(context: typer.Context) -> None:
         raise ContactError(f"{', '.join(idle)}: --curvatures replaces wheel, rail and position")
 
 
-def used(context: typer.Context) -> list[str]:
-    """Return the options of wheel, rail and position that were typed."""
-    options = [option for option in context.command.params if option.name in OF_A_POSITION]
+def used(context: typer.Context, names: Collection[str] = OF_A_POSITION) -> list[str]:
+    """Return those of the options, by default of wheel, rail and position, that were typed."""
+    options = [option for option in context.command.params if option.name in names]
     sources = {option.opts[0]: context.get_parameter_source(str(option.name)) for option in options}
     return [name for name, source in sources.items() if source is not None and source.name == "COMMANDLINE"]
 

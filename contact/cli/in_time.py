@@ -37,9 +37,13 @@ Damping = Annotated[
     opt.in_loading(help="contact damping of the normal and the tangential forces in s", metavar="NORMAL TANGENTIAL"),
 ]
 
+#: Option → column that takes its place.
+_COLUMNS = {"y": "pose.y", "roll": "pose.roll", "yaw": "pose.yaw", "speed": "velocity.x"}
+
 
 @reported
 def in_time(
+    context: typer.Context,
     motion: File,
     *,
     place: arguments.PlaceOptions,
@@ -64,7 +68,9 @@ def in_time(
     if side is opt.SideOption.both:
         raise ContactError("side = 'both': a motion is that of one wheel")
     columns = _read(motion)
-    given = {"pose.y": place.y, "pose.roll": place.roll, "pose.yaw": place.yaw, "velocity.x": place.speed}
+    if idle := arguments.used(context, {option for option, name in _COLUMNS.items() if name in columns}):
+        raise ContactError(f"{', '.join(idle)}: {motion} has a column for it")
+    given = {name: getattr(place, option) for option, name in _COLUMNS.items()}
     heights = [name for name in ("pose.z", LOAD, *AMOUNTS) if name in columns]
     options = [f"--{name} {value:g}" for name, value in (("load", load), ("vertical", vertical)) if value is not None]
     if heights and options:
