@@ -51,21 +51,28 @@ class Reading(ProfileFile):
     inclination: opt.Inclination = None
     profile_rotation: opt.Rotation = (0.0, 0.0)
 
-    def load(self, name: str, kind: profile.Kind, *others: str | None) -> profile.Profile:
-        """Return the profile with this name or in this file. `others` are names that the options are for, too."""
-        beside = (getattr(self, of, None) for of in ("wheel", "rail", "left_wheel", "left_rail"))
-        profile.require_file((name, *others, *beside), self.given)
+    @property
+    def names(self) -> tuple[str | None, ...]:
+        """Names of the profiles that this is for, as far as it has them."""
+        return ()
+
+    def load(self, name: str, kind: profile.Kind) -> profile.Profile:
+        """Return the profile with this name or in this file."""
+        profile.require_file((name, *self.names), self.given)
+        return self._read(name, kind)
+
+    def chosen(self, wheel: str | None, rail: str | None) -> dict[profile.Kind, profile.Profile]:
+        """Return the profiles that have a name."""
+        names: dict[profile.Kind, str | None] = {"wheel": wheel, "rail": rail}
+        profile.require_file(names.values(), self.given)
+        return {kind: self._read(name, kind) for kind, name in names.items() if name}
+
+    def _read(self, name: str, kind: profile.Kind) -> profile.Profile:
         rotation = self.profile_rotation[0 if kind == "wheel" else 1]
         found = profile.load(name, kind, inclination=self.inclination, **self.given | {"rotation": rotation})
         if kind == "rail":
             in_effect(inclination=profile.default_inclination(name))
         return found
-
-    def chosen(self, wheel: str | None, rail: str | None) -> dict[profile.Kind, profile.Profile]:
-        """Return the profiles that have a name."""
-        names: dict[profile.Kind, str | None] = {"wheel": wheel, "rail": rail}
-        profile.require_file((wheel, rail), self.given)
-        return {kind: self.load(name, kind, wheel, rail) for kind, name in names.items() if name}
 
 
 @dataclass
@@ -118,6 +125,11 @@ class _OnRails:
 @dataclass
 class Wheels(Reading, _OnRails):
     """Wheels on rails, and how their profiles are read."""
+
+    @property
+    def names(self) -> tuple[str | None, ...]:
+        """Names of the profiles."""
+        return self.wheel, self.rail
 
     @property
     def profiles(self) -> tuple[profile.Profile, profile.Profile]:

@@ -45,6 +45,11 @@ class WheelsetOptions(arguments.Wheels):
     left_radius: opt.LeftRadius = None
     roll: opt.Rolls = False
 
+    @property
+    def names(self) -> tuple[str | None, ...]:
+        """Names of the profiles of both sides."""
+        return *super().names, self.left_wheel, self.left_rail
+
     def both(self) -> dict[str, Any]:
         """Return the arguments of `contact_points` and `conicity`."""
         wheel, rail = self.profiles
