@@ -37,7 +37,7 @@ def test_on_windows_under_wine(hosts, name, command):
 
 
 @pytest.mark.parametrize("name", ["host_fmi3", "windows_fmi3"])
-@pytest.mark.parametrize("command", ["instantiate", "every_call", "adjoint", "threads"])
+@pytest.mark.parametrize("command", ["instantiate", "every_call", "threads"])
 def test_fmi_3(request, name, command):
     request.getfixturevalue(name)(command)
 
