@@ -109,7 +109,7 @@ def test_two_fmus_in_one_process_do_not_share_symbols(hosts, host, tmp_path):
     """Their symbols have equal names, but RTLD_LOCAL keeps them apart. One FMU with two guids is tested too."""
     twin = tmp_path / "twin.so"
     shutil.copy(host.library, twin)
-    component = models(POINTS)[0].component()
+    component = models(POINTS)[0].component
     guid = "{" + "0" * 36 + "}"
     (tmp_path / table.NAME).write_bytes(table.content(component, guid))
     host("two_libraries", 0, twin, guid, tmp_path.as_uri())
