@@ -164,6 +164,8 @@ def end_move(vectors, n, first, step, cosines, frozen, calm):
         wanted = _by_groups(vectors, n, first, step, cosines, wanted)
     if frozen and spur and not punch:
         wanted = max(wanted, 1.0)
+    if frozen and wanted > _FAR * _END_RANGE[1]:  # no more than a direction: the gap beyond tells whether there is contact
+        wanted = share = 0.0
     vectors[Vector.END, first] = share
     return END_STEP * wanted * (1.0 + cosines[1])
 
