@@ -6,7 +6,7 @@ from functools import cache
 import numpy as np
 
 import contact
-from contact.geometry import wheelset
+from contact.geometry import profile, wheelset
 from reference import random_cases
 
 
@@ -20,6 +20,19 @@ def two_lobes(depth: float, spacing: float = 12e-3) -> contact.Separation:
 def real_patch(y, yaw=0.0):
     """Return the first patch of S1002 on 60E1, right side."""
     return random_cases.pair().contacts(wheelset.Pose(y=y, yaw=yaw), load=8e4)[0].separation
+
+
+@cache
+def _profiles(wheel: str, rail: str, slope: float) -> wheelset.Pair:
+    return wheelset.Pair(profile.named(wheel), profile.named(rail, inclination=1 / slope))
+
+
+def patch(y, yaw=0.0, roll=0.0, load=80.0, *, wheel="S1002", rail="60E1", slope=40):
+    """Return separation and load [N] of the patch that carries most: y [mm], yaw and roll [mrad], load [kN], rail 1:`slope`."""
+    pose = wheelset.Pose(y=1e-3 * y, yaw=1e-3 * yaw, roll=1e-3 * roll)
+    patches = _profiles(wheel, rail, slope).contacts(pose, load=1e3 * load)
+    largest = max(patches, key=lambda one: one.load)
+    return largest.separation, largest.load
 
 
 def turned(P, Q, angle, load=1e4):

@@ -60,9 +60,7 @@ def test_a_layer_that_yields_everywhere_carries_the_limited_traction():
 def test_traction_yield_stress_and_shear_agree(hardening):
     """tau_c follows from the plastic shear, the traction is tau_c where the layer yields, and nothing slips there."""
     s = solve(4e-3, contact.ThirdBody(2e-13, 150e6, hardening))
-    state, dx = s.layer, s.x[0, 0] - s.x[0, 1]
-    inside = s.p > 0.0
-    size = np.hypot(s.qx, s.qy)
+    state, inside, size = s.layer, s.p > 0.0, np.hypot(s.qx, s.qy)
     yielding = state.plastic & (np.hypot(s.sx, s.sy) <= 1e-9)
     assert yielding.sum() > 20
     np.testing.assert_allclose(size[yielding], state.yield_stress[yielding], rtol=1e-4)
@@ -71,8 +69,7 @@ def test_traction_yield_stress_and_shear_agree(hardening):
     np.testing.assert_allclose(state.yield_stress[inside], (150e6 + hardening * shear)[inside], rtol=2e-3)
     assert (size <= MU * s.p * (1.0 + 1e-9)).all()
     assert state.power_per_metre > 0.0
-    assert np.sign(state.ux[yielding]).max() == -np.sign(s.sx.sum() or 1.0) or state.ux[yielding].max() <= 0.0
-    assert dx > 0.0
+    assert state.ux[yielding].max() <= 0.0
 
 
 def test_no_layer_and_a_strong_stiff_layer_are_the_same():

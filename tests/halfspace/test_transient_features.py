@@ -8,11 +8,12 @@ from contact.halfspace import Gap, LocalLaw, Transient
 from contact.halfspace.local_law import Warmth
 from contact.inputs.material import Thermal
 
-#: Radius of the elements' borders, half curvature and load of the ball of the input file cattaneo (units of that file: mm, N).
 BALL = contact.Material(200e6, 0.42)
+BOTH = {"normal": "halfspace", "tangential": "halfspace"}
 
 
 def ball(**others):
+    """Return the ball of CONTACT's example cattaneo."""
     x = (np.arange(-1, 20) - 9.0) * 0.13333e-3
     h = 10.0 * (x**2 + x[:, None] ** 2)
     return Transient(Gap(x, x, h), load=9.1954, friction=0.4, material=BALL, **others)
@@ -79,23 +80,15 @@ def test_a_grid_that_moves_with_the_gap_changes_nothing():
 
 def test_what_leaves_the_contact_leaves_its_traction():
     """Half the load in a step: the traction left over outside the smaller contact must not move the rest."""
-    one, other = ball(), ball()
-    one.shift(3e-6)
-    s = one.shift(3e-6, load=4.0)
-    rest = other.state
-    other.shift(3e-6)
-    direct = other.shift(3e-6, load=4.0)
-    x, y = one.grid
-    outside = one.pressure == 0.0
-    assert not one.traction[:, outside].any()
-    ux = one.displacement[0]
-    before = Transient(Gap(x, y, 10.0 * (x**2 + y[:, None] ** 2)), load=9.1954, friction=0.4, material=BALL)
-    before.shift(3e-6)
-    stuck = (np.hypot(*one.traction) < 0.399 * one.pressure) & (one.pressure > 0.0)
+    whole, less = ball(), ball()
+    for patch in (whole, less):
+        patch.shift(3e-6)
+    less.shift(3e-6, load=4.0)
+    assert not less.traction[:, less.pressure == 0.0].any()
+    stuck = (np.hypot(*less.traction) < 0.399 * less.pressure) & (less.pressure > 0.0)
+    assert stuck.any()
     # in stick the surfaces move as the bodies do
-    np.testing.assert_allclose((ux - before.displacement[0])[stuck], -3e-6, atol=2e-12)
-    assert s.Fx == direct.Fx
-    assert not rest.traction.any()
+    np.testing.assert_allclose((less.displacement[0] - whole.displacement[0])[stuck], -3e-6, atol=2e-12)
 
 
 def test_compression_of_unlike_bodies_in_steps_is_contacts():
@@ -109,13 +102,16 @@ def test_compression_of_unlike_bodies_in_steps_is_contacts():
     assert [s.power_per_metre for s in steps[1:]] == pytest.approx([3.184e-13, 1.465e-12, 5.868e-12], rel=5e-4)
 
 
+def one_element(layer):
+    """Return a contact of one element of 1 mm under 900 N on a layer."""
+    x, h = (np.arange(3) - 1.0) * 1e-3, np.full((3, 3), 1.0)
+    h[1, 1] = 0.0
+    return Transient(Gap(x, x, h), load=900.0, friction=0.7, material=contact.Material(82e9, 0.28), layer=layer)
+
+
 def test_an_element_of_a_third_body_yields_step_by_step_as_in_contact():
     """CONTACT 25.1, plastic_3bl.ref_out cases 2 to 5: 280, 560, 560, 560 N, plastic work .0168 and .028 J."""
-    x = (np.arange(3) - 1.0) * 1e-3
-    h = np.full((3, 3), 1.0)
-    h[1, 1] = 0.0
-    layer = contact.ThirdBody(20e-6 / 176.63e6, 560e6)
-    patch = Transient(Gap(x, x, h), load=900.0, friction=0.7, material=contact.Material(82e9, 0.28), layer=layer)
+    patch = one_element(contact.ThirdBody(20e-6 / 176.63e6, 560e6))
     steps = [patch.shift(c) for c in (3.5e-5, 3.5e-5, 3e-5, 5e-5)]
     assert [-s.Fx for s in steps] == pytest.approx([280.0, 560.0, 560.0, 560.0], abs=0.05)
     assert [s.layer.power_per_metre for s in steps] == pytest.approx([0.0, 0.0, 0.0168, 0.028], abs=2e-5)
@@ -123,19 +119,9 @@ def test_an_element_of_a_third_body_yields_step_by_step_as_in_contact():
 
 
 def test_hardening_raises_the_yield_stress_of_an_element_by_its_shear():
-    x = (np.arange(3) - 1.0) * 1e-3
-    h = np.full((3, 3), 1.0)
-    h[1, 1] = 0.0
-    flexibility, k = 20e-6 / 106.25e6, 4.35e11
-    patch = Transient(
-        Gap(x, x, h),
-        load=900.0,
-        friction=0.7,
-        material=contact.Material(82e9, 0.28),
-        layer=contact.ThirdBody(flexibility, 200e6, k),
-    )
-    own = patch.shift(1e-9)
-    total = 1e-9 / (-own.Fx / 1e-6)  # shift per stress of the element and its layer
+    k = 4.35e11
+    patch = one_element(contact.ThirdBody(20e-6 / 106.25e6, 200e6, k))
+    total = 1e-9 / (-patch.shift(1e-9).Fx / 1e-6)  # shift per stress of the element and its layer
     for _ in range(4):
         s = patch.shift(5e-5)
     expected = 200e6 + (2e-4 + 1e-9 - 200e6 * total) * k / (1.0 + k * total)
@@ -147,8 +133,7 @@ def test_roll_on_is_the_end_of_rolling():
     separation = contact.Separation.hertzian(1.1, 0.8)
     creepage = contact.Creepage(1e-3, -5e-4, 0.2)
     last = Transient(separation, load=80e3, spacing=0.6e-3).roll_on(creepage)
-    both = {"normal": "halfspace", "tangential": "halfspace"}
-    steady = contact.solve(separation, creepage, load=80e3, spacing=0.6e-3, **both)
+    steady = contact.solve(separation, creepage, load=80e3, spacing=0.6e-3, **BOTH)
     assert (last.Fx, last.Fy) == pytest.approx((steady.Fx, steady.Fy), rel=1e-4)
 
 
@@ -156,8 +141,7 @@ def test_a_local_law_is_that_of_the_steady_half_space():
     separation, creepage = contact.Separation.hertzian(1.1, 0.8), contact.Creepage(6e-3)
     law = LocalLaw(0.2, (("exponential", 0.15, 0.05),))
     friction = contact.friction.Friction(0.35, 0.2, half_speed=0.05, law="exponential", velocity="local")
-    both = {"normal": "halfspace", "tangential": "halfspace", "spacing": 0.8e-3}
-    steady = contact.solve(separation, creepage, load=80e3, friction=friction, **both)
+    steady = contact.solve(separation, creepage, load=80e3, friction=friction, spacing=0.8e-3, **BOTH)
     for given in (law, friction):
         found = Transient(separation, load=80e3, friction=given, spacing=0.8e-3).roll_on(creepage)
         assert found.Fx == pytest.approx(steady.Fx, rel=2e-3)
@@ -172,12 +156,10 @@ def test_memory_of_friction_follows_the_distance_slipped():
     np.testing.assert_allclose(field, at + (0.4 - at) * np.exp(-distance / 1e-4), rtol=1e-9)
 
 
-@pytest.mark.parametrize(
-    ("kind", "share"), [("linear", 0.5), ("rational", 0.5), ("rational_square", 0.5), ("exponential", 0.5)]
-)
-def test_a_term_is_halved_at_its_velocity(kind, share):
+@pytest.mark.parametrize("kind", ["linear", "rational", "rational_square", "exponential"])
+def test_a_term_is_halved_at_its_velocity(kind):
     law = LocalLaw(0.1, ((kind, 0.2, 0.3),))
-    assert float(law.at(np.array([[0.3]]))[0, 0]) == pytest.approx(0.1 + share * 0.2)
+    assert float(law.at(np.array([[0.3]]))[0, 0]) == pytest.approx(0.2)
     assert float(law.static[0, 0]) == pytest.approx(0.3)
 
 
@@ -206,8 +188,7 @@ def test_friction_over_the_temperature_is_that_of_the_steady_half_space():
     friction = contact.friction.Friction(
         0.3, hot_factor=0.4, reference_temperature=293.15, background_temperature=293.15, temperature_range=400.0
     )
-    both = {"normal": "halfspace", "tangential": "halfspace", "speed": 30.0}
-    steady = contact.solve(gap, creepage, load=1e5, friction=friction, **both)
+    steady = contact.solve(gap, creepage, load=1e5, friction=friction, speed=30.0, **BOTH)
     warmth = Warmth(-0.18, 293.15, 400.0, 293.15, Thermal())
     hot = Transient(gap, load=1e5, friction=LocalLaw(0.3, warmth=warmth), speed=30.0)
     found = hot.roll_on(creepage)

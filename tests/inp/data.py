@@ -1,4 +1,8 @@
-"""Small input files after examples of CONTACT 25.1, and printed results in its form."""
+"""Small input files after examples of CONTACT 25.1, printed results in its form, and a place of its search."""
+
+import numpy as np
+
+from contact.inp.search import Found
 
 HEAD = """ 3 MODULE
  {word}
@@ -29,3 +33,9 @@ PRINTED = """ Case     1
      FN/G      FX/FSTAT/FN  FY/FSTAT/FN  APPROACH     PMAX
     0.4363      0.6480       0.000      {approach}   113.9
 """
+
+
+def found(y, angle, weight=1.0):
+    """Return a place of contact 2 mm wide."""
+    ends = np.array([[y - 1e-3, 0.0], [y + 1e-3, 0.0]])
+    return Found(np.array([0.0, y, 0.0]), angle, weight, (-1e-3, 1e-3), ends)

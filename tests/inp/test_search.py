@@ -6,7 +6,8 @@ import pytest
 from contact import inp
 from contact.geometry import profile
 from contact.inp.nodes import bicubic, bilinear
-from contact.inp.search import Found, joined
+from contact.inp.search import joined
+from tests.inp.data import found
 
 #: A wheel on a rail under a given height.
 PAIR = """\
@@ -62,16 +63,16 @@ def test_cubics_between_nodes_are_exact_for_parabolas_and_straight_lines_are_not
 
 def test_a_rail_of_equal_slices_is_that_rail(solved):
     straight, slices = solved(), solved(rail="rail.slcs")
-    for name, tolerance in (("FN", 2e-4), ("PMAX", 2e-4), ("APPROACH", 2e-4)):
-        assert slices[name] == pytest.approx(straight[name], rel=tolerance)
-    assert slices["YCP(TR)"] == pytest.approx(straight["YCP(TR)"], abs=2e-6)
-    assert slices["XCP(TR)"] == pytest.approx(straight["XCP(TR)"], abs=2e-6)
+    for name in ("FN", "PMAX", "APPROACH"):
+        assert slices[name] == pytest.approx(straight[name], rel=2e-4)
+    for name in ("YCP(TR)", "XCP(TR)"):
+        assert slices[name] == pytest.approx(straight[name], abs=2e-6)
 
 
 def test_a_wheel_of_equal_slices_is_that_wheel_but_for_the_mesh(solved):
     round_, slices = solved(D=5, dx=0.2), solved(D=5, dx=0.2, wheel="wheel.slcw")
-    for name, tolerance in (("FN", 2e-3), ("PMAX", 2e-3), ("APPROACH", 2e-3)):
-        assert slices[name] == pytest.approx(round_[name], rel=tolerance)
+    for name in ("FN", "PMAX", "APPROACH"):
+        assert slices[name] == pytest.approx(round_[name], rel=2e-3)
 
 
 def test_mesh_and_surfaces_lead_to_reference_points_some_micrometres_apart(solved):
@@ -94,12 +95,7 @@ def test_elements_are_doubled_until_there_are_less_than_npot_max(solved):
 
 
 def test_patches_nearer_than_the_least_distance_with_like_angles_are_one():
-    def patch(y, angle, weight=1.0):
-        return Found(
-            np.array([0.0, y, 0.0]), angle, weight, (-1e-3, 1e-3), np.array([[y - 1e-3, 0.0], [y + 1e-3, 0.0]])
-        )
-
-    pair = patch(0.0, 0.2), patch(0.008, 0.1, 3.0)  # their ends are 6 mm apart
+    pair = found(0.0, 0.2), found(0.008, 0.1, 3.0)  # their ends are 6 mm apart
     assert len(joined(pair, (5e-3, 1.0), lambda x, y: 0.0)) == 2
     assert len(joined(pair, (7e-3, 0.05), lambda x, y: 0.0)) == 2
     (one,) = joined(pair, (7e-3, 1.0), lambda x, y: 2e-3)

@@ -11,16 +11,17 @@ from contact.errors import ContactError
 from contact.halfspace import Gap, norm
 from contact.halfspace.parts import norm_of_parts
 from contact.inp import approximate, lobes
-from contact.inp.search import Found, turned
+from contact.inp.search import turned
 from contact.inputs.material import STEEL
 from contact.theory.hertz import hertz
 from contact.theory.kalker import piecewise
+from tests.inp.data import found
 
 #: An ellipse of 8 × 4 mm under spin and lateral creepage (CONTACT 25.1, fastsim cases 2 to 4).
 SPIN = """\
  3 MODULE
   2{B}3100
-  0223{M}0
+  022{M}20
  0001341
     80   200    5    1      1e-6
    82000.     0.000     -0.000625   0.000625
@@ -34,11 +35,14 @@ SPIN = """\
 """
 
 
-def spin(tmp_path, B, M, K="1.000 1.000"):
-    text = SPIN.replace("0223{M}0", "022" + str(M) + "20").format(B=B, K=K)
+def spin(tmp_path, B=2, M=3, K="1.000 1.000", *change):
+    """Return the result of `SPIN` with pairs of a text and what is written in its place."""
+    text = SPIN.format(B=B, M=M, K=K)
+    for old, new in change:
+        text = text.replace(old, new)
     path = tmp_path / "case.inp"
     path.write_text(text)
-    return inp.solve(inp.read(path))[0].patches[0].values
+    return inp.solve(inp.read(path))[0]
 
 
 @pytest.mark.parametrize(
@@ -47,49 +51,43 @@ def spin(tmp_path, B, M, K="1.000 1.000"):
 )
 def test_simplified_theory_is_contacts(tmp_path, B, M, force, moment, stuck):
     """fastsim.ref_out, cases 2, 3 and 4: FASTSIM on a paraboloid and an ellipsoid, and the modified FaStrip."""
-    values = spin(tmp_path, B, M)
+    values = spin(tmp_path, B, M).patches[0].values
     assert values["FY"] == pytest.approx(force, abs=8e-4 * 82000.0)
     assert values["MZ"] == pytest.approx(moment, rel=2e-3)
     assert values["NADH"] == pytest.approx(stuck, abs=6)
 
 
 def test_a_reduced_slope_lowers_the_force_and_leaves_full_slip(tmp_path):
-    whole, reduced = spin(tmp_path, 2, 3)["FY"], spin(tmp_path, 2, 3, "0.500 1.000")["FY"]
+    whole, reduced = (spin(tmp_path, K=K).patches[0].values["FY"] for K in ("1.000 1.000", "0.500 1.000"))
     assert abs(reduced) < 0.9 * abs(whole)
 
 
 @pytest.mark.parametrize("M", [3, 5])
 @pytest.mark.parametrize(
-    ("old", "new"),
+    "change",
     [
-        ("0.000     -0.000625 ", "1e200 -0.000625 "),
-        ("0.300      0.300", "0.000 0.300 0.000 0.000 0.000\n 0. 0."),
-        ("0.300      0.300", "0.000 0.300 1e-9 0.000 0.000\n 0. 0."),
+        [("0.000     -0.000625 ", "1e200 -0.000625 ")],
+        [("0.300      0.300", "0.000 0.300 0.000 0.000 0.000\n 0. 0."), ("  022", "  222")],
+        [("0.300      0.300", "0.000 0.300 1e-9 0.000 0.000\n 0. 0."), ("  022", "  222")],
     ],
     ids=["creepage", "no half slip", "no friction left"],
 )
-def test_simplified_theory_refuses_numbers_that_have_no_answer(tmp_path, M, old, new):
+def test_simplified_theory_refuses_numbers_that_have_no_answer(tmp_path, M, change):
     """Before: NaN at status ok, or a ZeroDivisionError."""
-    text = SPIN.replace("0223{M}0", f"022{M}20").format(B=2, K="1.000 1.000").replace(old, new)
-    path = tmp_path / "case.inp"
-    path.write_text(text.replace("  022", "  222") if old.startswith("0.3") else text)
-    assert inp.solve(inp.read(path))[0].refused == "input"
+    assert spin(tmp_path, 2, M, "1.000 1.000", *change).refused == "input"
 
 
 def test_a_slope_of_zero_is_refused_by_name(tmp_path):
     with pytest.raises(ContactError, match="K0_MF = 0"):
-        spin(tmp_path, 2, 3, "0.000 1.000")
+        spin(tmp_path, K="0.000 1.000")
 
 
 @pytest.mark.filterwarnings("error")
 @pytest.mark.parametrize("M", [3, 5])
 def test_simplified_theory_without_creepage_has_no_force(tmp_path, M):
-    text = SPIN.replace("0223{M}0", f"022{M}20").format(B=2, K="1.000 1.000")
-    path = tmp_path / "case.inp"
-    path.write_text(text.replace("0.000     -0.000625   0.000625", "0.000 0.000 0.000"))
-    values = inp.solve(inp.read(path))[0].patches[0].values
-    assert values["FX"] == values["FY"] == values["MZ"] == 0.0
-    assert values["NSLIP"] == 0.0
+    change = "0.000     -0.000625   0.000625", "0.000 0.000 0.000"
+    values = spin(tmp_path, 2, M, "1.000 1.000", change).patches[0].values
+    assert values["FX"] == values["FY"] == values["MZ"] == values["NSLIP"] == 0.0
 
 
 def test_kalkers_table_is_read_as_contact_reads_it():
@@ -100,19 +98,19 @@ def test_kalkers_table_is_read_as_contact_reads_it():
 
 
 def ellipse(A, B, approach, step=1e-4):
-    found = hertz(A, B, approach=approach, material=STEEL)
-    x, y = (np.arange(-round(1.6 * k / step), round(1.6 * k / step) + 1) * step for k in (found.a, found.b))
-    return Gap(x, y, A * x**2 + B * y[:, None] ** 2), found
+    exact = hertz(A, B, approach=approach, material=STEEL)
+    x, y = (np.arange(-round(1.6 * k / step), round(1.6 * k / step) + 1) * step for k in (exact.a, exact.b))
+    return Gap(x, y, A * x**2 + B * y[:, None] ** 2), exact
 
 
 @pytest.mark.parametrize("method", [5, 6])
 @pytest.mark.parametrize("B", [0.5, 1.0, 3.0])
 def test_approximate_pressures_are_hertz_pressure_on_an_ellipse(method, B):
-    gap, found = ellipse(1.0, B, 4e-5)
+    gap, exact = ellipse(1.0, B, 4e-5)
     p = approximate.pressure(method, gap, 4e-5, STEEL)
-    assert p.sum() * gap.dx * gap.dy == pytest.approx(found.N, rel=0.02)
-    assert p.max() == pytest.approx(1.5 * found.N / (math.pi * found.a * found.b), rel=0.02)
-    assert (p > 0.0).sum() * gap.dx * gap.dy == pytest.approx(math.pi * found.a * found.b, rel=0.02)
+    assert p.sum() * gap.dx * gap.dy == pytest.approx(exact.N, rel=0.02)
+    assert p.max() == pytest.approx(1.5 * exact.N / (math.pi * exact.a * exact.b), rel=0.02)
+    assert (p > 0.0).sum() * gap.dx * gap.dy == pytest.approx(math.pi * exact.a * exact.b, rel=0.02)
 
 
 @pytest.mark.filterwarnings("error")
@@ -169,13 +167,7 @@ def test_lobes_nearer_than_the_first_distance_are_one_patch():
 
 def test_angles_of_near_patches_turn_towards_their_common_mean():
     """Half way between both distances each goes half of its way to the mean by weight."""
-
-    def patch(y, angle, weight):
-        return Found(
-            np.array([0.0, y, 0.0]), angle, weight, (-1e-3, 1e-3), np.array([[y - 1e-3, 0.0], [y + 1e-3, 0.0]])
-        )
-
-    pair = [patch(0.74, -0.3, 1.0), patch(0.75, -0.1, 3.0)]  # their ends are 8 mm apart
+    pair = [found(0.74, -0.3, 1.0), found(0.75, -0.1, 3.0)]  # their ends are 8 mm apart
     assert turned(pair, (6e-3, 10e-3, 1.57)) == pytest.approx([-0.225, -0.125])
     assert turned(pair[::-1], (6e-3, 10e-3, 1.57)) == pytest.approx([-0.125, -0.225])
     for limits in ((6e-3, 7e-3, 1.57), (9e-3, 12e-3, 1.57), (6e-3, 10e-3, 0.1)):

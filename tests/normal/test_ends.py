@@ -12,69 +12,42 @@ from contact.kernels.normal.partition import have_gap
 from contact.kernels.normal.residuals import level_light
 from contact.kernels.rows import N_VECTOR_ROWS, Vector
 from contact.pair import WheelRailPair
+from tests.separations import patch
 
 NO_CREEP = contact.Creepage()
 PAIR = wheelset.Pair(profile.s1002(), profile.rail_60e1(inclination=1 / 40))
-
-
-def patch(y, yaw=0.0):
-    """Return separation and load of the largest patch [N] at y [mm] and yaw [mrad] under 80 kN."""
-    patches = PAIR.contacts(wheelset.Pose(y=1e-3 * y, yaw=1e-3 * yaw), load=80e3)
-    largest = max(patches, key=lambda one: one.load)
-    return largest.separation, largest.load
-
-
-@pytest.mark.parametrize(("y", "yaw"), [(4.75, 0), (4.8, 0), (5.6, 0), (5.6, 2), (1.963, 0), (1.963, 8)])
-def test_refined_strips_settle_where_a_second_lobe_is_narrow(y, yaw):
-    """At y = 4.8 mm 20 to 160 strips gave 1259, 1260, 2017 and 6382 MPa: narrow strips kept the ends from where they belong."""
-    separation, load = patch(y, yaw)
-    found = [contact.solve(separation, NO_CREEP, load=load, n_strips=n) for n in (20, 40, 80, 160)]
-    peaks = np.array([sol.max_pressure for sol in found])
-    assert np.all(np.abs(np.diff(peaks) / peaks[:-1]) < 0.005)
-    assert abs(found[3].area / found[2].area - 1.0) < 0.01
-
-
-@pytest.mark.parametrize(("y", "yaw"), [(6.6, 8), (6.648, 2), (6.648, 8), (6.7, 8), (6.9, 8)])
-def test_refined_strips_settle_where_the_line_of_their_middles_bends(y, yaw):
-    """At y = 6.6 mm and 8 mrad 20 to 160 strips gave 2000, 2023, 1823 and 2756 MPa: the middles of narrow strips zigzagged. At
-    y = 6.9 mm they gave 4472, 4478, 4481 and 12333 MPa: an end that was fixed too far inside moved by widths of its strip."""
-    separation, load = patch(y, yaw)
-    found = [contact.solve(separation, NO_CREEP, load=load, n_strips=n) for n in (20, 40, 80, 160)]
-    peaks = np.array([sol.max_pressure for sol in found])
-    assert np.abs(peaks / peaks[0] - 1.0).max() < 0.03
-    assert peaks[3] == pytest.approx(peaks[2], rel=0.02)
-    assert found[3].area == pytest.approx(found[2].area, rel=0.02)
-
-
-def test_refined_strips_settle_on_a_lobe_of_a_yawed_flange():
-    """With 20, 40 and 80 strips the peak was 5344, 6520 and 26566 MPa: an end of the lobe, .7 mm wide, was fixed inside it."""
-    pair = wheelset.Pair(profile.named("EPS"), profile.rail_60e1(inclination=1 / 40))
-    patches = pair.contacts(wheelset.Pose(y=6.87583762e-3, yaw=-19.14625512e-3), load=120573.672)
-    separation, load = max(((one.separation, one.load) for one in patches), key=lambda one: one[1])
-    found = [contact.solve(separation, NO_CREEP, load=load, n_strips=n) for n in (20, 40, 80)]
-    assert [sol.max_pressure for sol in found] == pytest.approx([found[0].max_pressure] * 3, rel=0.01)
-    assert [sol.area for sol in found] == pytest.approx([found[0].area] * 3, rel=0.02)
+EPS, E2 = {"wheel": "EPS"}, {"rail": "60E2"}
 
 
 @pytest.mark.parametrize(
-    ("y", "yaw", "load"),
+    ("at", "profiles", "numbers", "peak", "area"),
     [
-        (6.2224, -14.704, 107.35),
-        (6.2067, -14.752, 107.39),
-        (6.2233, -14.863, 107.58),
-        (6.2174561, -14.8682845, 106.746045),
+        # A second lobe is narrow. At y = 4.8 mm 20 to 160 strips gave 1259, 1260, 2017 and 6382 MPa: narrow strips kept the
+        # ends from where they belong.
+        *(((y, yaw), {}, (20, 40, 80, 160), 0.005, 0.01) for y, yaw in ((4.75, 0), (4.8, 0), (5.6, 0), (5.6, 2))),
+        *(((1.963, yaw), {}, (20, 40, 80, 160), 0.005, 0.01) for yaw in (0, 8)),
+        # The line of their middles bends. At y = 6.6 mm and 8 mrad they gave 2000, 2023, 1823 and 2756 MPa: the middles of
+        # narrow strips zigzagged. At y = 6.9 mm 4472, 4478, 4481 and 12333: an end that was fixed too far inside moved by
+        # widths of its strip.
+        *(((6.648, yaw), {}, (20, 40, 80, 160), 0.03, 0.02) for yaw in (2, 8)),
+        *(((y, 8), {}, (20, 40, 80, 160), 0.03, 0.02) for y in (6.6, 6.7, 6.9)),
+        # An end of a lobe .7 mm wide was fixed inside it: 5344, 6520 and 26566 MPa.
+        ((6.87583762, -19.14625512, 0.0, 120.573672), EPS, (20, 40, 80), 0.01, 0.02),
+        # 60 strips had an end inside the contact: 1.5 times the pressure, and the status was OK.
+        ((5.2807, 29.731, 4.038, 81.69), EPS | {"rail": "50E1"}, (20, 60), 0.02, 0.02),
+        # 160 strips gave 2830, 6988, 4029 and 2206 MPa, the last at status OK: the middles of the last strips, far narrower
+        # there than those of fewer strips, were hardly straightened, and the ends followed their pressures.
+        ((6.2224, -14.704, 0.0, 107.35), E2, (40, 160), 5e-3, 1e-2),
+        ((6.2067, -14.752, 0.0, 107.39), E2, (40, 160), 5e-3, 1e-2),
+        ((6.2233, -14.863, 0.0, 107.58), E2, (40, 160), 5e-3, 1e-2),
+        ((6.2174561, -14.8682845, 0.0, 106.746045), E2, (40, 160), 5e-3, 1e-2),
     ],
 )
-def test_many_strips_settle_on_a_lobe_whose_middles_could_zigzag_at_its_ends(y, yaw, load):
-    """160 strips gave 2830, 6988, 4029 and 2206 MPa, the last at status OK: the middles of the last strips, far narrower
-    there than those of fewer strips, were hardly straightened, and the ends followed their pressures."""
-    pair = wheelset.Pair(profile.s1002(), profile.named("60E2", inclination=1 / 40))
-    patches = pair.contacts(wheelset.Pose(y=1e-3 * y, yaw=1e-3 * yaw), load=1e3 * load)
-    separation, carried = max(((one.separation, one.load) for one in patches), key=lambda one: one[1])
-    found = [contact.solve(separation, NO_CREEP, load=carried, n_strips=n) for n in (40, 160)]
-    assert found[1].status is contact.Status.OK
-    assert found[1].max_pressure == pytest.approx(found[0].max_pressure, rel=5e-3)
-    assert found[1].area == pytest.approx(found[0].area, rel=1e-2)
+def test_refined_strips_settle(at, profiles, numbers, peak, area):
+    separation, load = patch(*at, **profiles)
+    found = [contact.solve(separation, NO_CREEP, load=load, n_strips=n) for n in numbers]
+    assert np.abs(np.diff(np.log([sol.max_pressure for sol in found]))).max() < peak
+    assert found[-1].area == pytest.approx(found[-2].area, rel=area)
 
 
 def test_strips_that_bear_next_to_nothing_do_not_tell_the_pressure_of_what_is_not_at_rest():
@@ -91,9 +64,7 @@ def test_strips_that_bear_next_to_nothing_do_not_tell_the_pressure_of_what_is_no
 
 def test_a_spike_at_an_end_is_lowered_to_the_pressure_beside_it():
     """The last strip of a lobe, where no rest is found, carries next to nothing, and gave 2612 MPa in place of 1455."""
-    pair = wheelset.Pair(profile.s1002(), profile.named("60E2", inclination=1 / 40))
-    patches = pair.contacts(wheelset.Pose(y=6.209e-3, yaw=-14.826e-3), load=107.23e3)
-    separation, carried = max(((one.separation, one.load) for one in patches), key=lambda one: one[1])
+    separation, carried = patch(6.209, -14.826, 0.0, 107.23, **E2)
     found = [contact.solve(separation, NO_CREEP, load=carried, n_strips=n, throw=False) for n in (40, 160)]
     assert found[1].max_pressure == pytest.approx(found[0].max_pressure, rel=5e-3)
 

@@ -22,13 +22,16 @@ def separation(ratio, size):
 
 
 @pytest.mark.parametrize("normal", ["hertz", "analyn"])
-def test_pressure_axes_and_approach_are_hertzs(normal):
+def test_pressure_strips_axes_approach_and_stiffness_are_hertzs(normal):
     for ratio, (size, load) in CASES:
         A, B = separation(ratio, size)
         exact = contact.hertz(A, B, load=load * size**2)
         sol = contact.solve(contact.Separation.hertzian(A, B), NO_CREEP, load=load * size**2, normal=normal)
         found = sol.max_pressure, 0.5 * sol.width, sol.approach
         assert found == pytest.approx((exact.p0, exact.b, exact.approach), rel=2e-7), (ratio, size, load)
+        at = np.sqrt(1.0 - (sol.strips.y / exact.b) ** 2)
+        np.testing.assert_allclose((sol.strips.a / exact.a, sol.strips.p0 / exact.p0), (at, at), rtol=1e-6)
+        assert sol.normal_stiffness == pytest.approx(1.5 * load * size**2 / exact.approach, rel=1e-5)
         assert sol.gap_error < 0.01
 
 

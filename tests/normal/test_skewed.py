@@ -1,49 +1,38 @@
 """Skewed patches: a Hertz contact that is turned in its plane must come out, whatever its angle and ratio."""
 
+import itertools
 import math
 
 import numpy as np
 import pytest
 
 import contact
-from contact.geometry import profile, wheelset
 from contact.instance import workspace
 from contact.kernels.normal.factors import LEAST, N_FACTORS, N_LAYERS
 from contact.kernels.normal.turned import turned_ellipse
-from tests.separations import turned
+from tests.separations import patch, turned
 
 NO_CREEP = contact.Creepage()
 HALF_SPACE = {"normal": "halfspace", "tangential": "halfspace", "n_strips": 60, "n_elements": 60}
-#: Half curvatures across and along, angle of the long axis to the rolling direction [degrees].
-TURNED = [(P, Q, angle) for P, Q in ((1.0, 1.5), (1.0, 5.0), (1.0, 30.0)) for angle in (2, 15, 40, 75)]
 
 
-@pytest.mark.parametrize(("P", "Q", "angle"), TURNED)
+@pytest.mark.parametrize(("P", "Q", "angle"), [(1.0, Q, angle) for Q in (1.5, 8.0, 36.0) for angle in (2, 15, 40, 75)])
 def test_a_turned_ellipse_is_hertz(P, Q, angle):
-    """Before, its largest pressure was up to 11 % low and its area 12 % too large, whatever the number of strips."""
-    separation, exact, slope = turned(P, Q, angle)
-    sol = contact.solve(separation, NO_CREEP, load=1e4, n_strips=40, n_elements=10)
-    assert sol.converged
-    assert sol.max_pressure == pytest.approx(exact.p0, rel=3e-3)
-    assert sol.area == pytest.approx(math.pi * exact.a * exact.b, rel=3e-3)
-    assert sol.approach == pytest.approx(exact.approach, rel=1.5e-3)
-    given = contact.solve(separation, NO_CREEP, approach=exact.approach, n_strips=40, n_elements=10)
-    assert pytest.approx(1e4, rel=2e-3) == given.N
-    if slope > 0.15:  # the offsets count in full from a slope of .09 of the line of least gap on
-        inner = slice(3, -3)
-        found = np.polyfit(sol.strips.y[inner], sol.strips.x_c[inner], 1)[0]
-        assert found == pytest.approx(slope, rel=5e-3)
-
-
-@pytest.mark.parametrize(("P", "Q", "angle"), [(1.0, Q, angle) for Q in (1.5, 8.0, 36.0) for angle in (15, 30, 45, 75)])
-def test_twenty_skewed_strips_are_as_exact_as_straight_ones(P, Q, angle):
     """Strips of one pressure, length and middle each displace the surface less than the ellipse does, by up to 3 %: before the
-    factors that make up for it the peak was .5 % off, the area .7 %; with a table of half as many a/b .08 and .09 %."""
-    separation, exact, _ = turned(P, Q, angle)
-    sol = contact.solve(separation, NO_CREEP, load=1e4, n_strips=20, n_elements=10)
+    factors that make up for it the peak was .5 % off, the area .7 %; with a table of half as many a/b .08 and .09 %. On the
+    line of least gap the peak was up to 11 % low, the area 12 % too large, whatever the number of strips."""
+    separation, exact, slope = turned(P, Q, angle)
+    sol = contact.solve(separation, NO_CREEP, load=1e4, n_elements=10)
+    assert sol.converged
     assert sol.max_pressure == pytest.approx(exact.p0, rel=5e-4)
     assert sol.area == pytest.approx(math.pi * exact.a * exact.b, rel=6e-4)
     assert sol.approach == pytest.approx(exact.approach, rel=3e-4)
+    given = contact.solve(separation, NO_CREEP, approach=exact.approach, n_elements=10)
+    assert pytest.approx(1e4, rel=2e-3) == given.N
+    if slope > 0.15:  # the offsets count in full from a slope of .09 of the line of least gap on
+        inner = slice(2, -2)
+        found = np.polyfit(sol.strips.y[inner], sol.strips.x_c[inner], 1)[0]
+        assert found == pytest.approx(slope, rel=5e-3)
 
 
 @pytest.mark.parametrize("n", [LEAST, 21, 40])
@@ -55,9 +44,7 @@ def test_factors_are_mirror_symmetric_and_near_one(n):
 
 
 def test_a_patch_skewed_the_other_way_has_its_middles_on_the_other_side():
-    pair = wheelset.Pair(profile.s1002(), profile.rail_60e1(inclination=1 / 40))
-    (patch,) = pair.contacts(wheelset.Pose(y=6.6e-3, yaw=10e-3), load=8e4)
-    one = patch.separation
+    one, _ = patch(6.6, 10.0)
     along = contact.Separation(one.y, one.g, one.A, -one.x_c)
     sol, by_x = (contact.solve(sep, NO_CREEP, load=9e4) for sep in (one, along))
     np.testing.assert_allclose(by_x.strips.p0, sol.strips.p0, rtol=1e-9)
@@ -79,7 +66,7 @@ def test_a_warm_start_of_a_skewed_patch_takes_its_offsets_along():
 
 
 def test_the_start_of_a_turned_ellipse_is_exact():
-    for P, Q, angle in TURNED:
+    for P, Q, angle in itertools.product((1.0,), (1.5, 5.0, 30.0), (2, 15, 40, 75)):
         separation, exact, slope = turned(P, Q, angle)
         A, B = separation.A[0], separation.g[0] / separation.y[0] ** 2
         straight = contact.hertz(A, B, load=1e4)
@@ -90,18 +77,13 @@ def test_the_start_of_a_turned_ellipse_is_exact():
         assert length * width * straight.a * straight.b == pytest.approx(exact.a * exact.b, rel=1e-4)
 
 
-@pytest.mark.parametrize(("y", "yaw", "before"), [(7.9e-3, 26e-3, 0.045), (6.6e-3, 10e-3, 0.08)])
+@pytest.mark.parametrize(("y", "yaw", "before"), [(7.9, 26.0, 0.045), (6.6, 10.0, 0.08)])
 def test_a_yawed_flange_contact_has_the_approach_of_the_half_space(y, yaw, before):
     """With strips on the line of least gap the approach was too large: .9 to 1.3 %, the pressure `before` lower."""
-    pair = wheelset.Pair(profile.s1002(), profile.rail_60e1(inclination=1 / 40))
     lower = []
-    for load in (7e4, 7.5e4, 8e4, 8.4e4):  # with the load the peak of such a patch moves from strip to strip
-        (patch,) = pair.contacts(wheelset.Pose(y=y, yaw=yaw), load=load)
-        N = patch.load
-        strips = contact.solve(patch.separation, NO_CREEP, load=N)
-        elements = contact.solve(
-            patch.separation, NO_CREEP, load=N, normal="halfspace", tangential="halfspace", n_strips=60, n_elements=60
-        )
+    for load in (70.0, 75.0, 80.0, 84.0):  # with the load the peak of such a patch moves from strip to strip
+        separation, N = patch(y, yaw, 0.0, load)
+        strips, elements = (contact.solve(separation, NO_CREEP, load=N, **options) for options in ({}, HALF_SPACE))
         assert strips.approach == pytest.approx(elements.approach, rel=2e-3)
         lower.append(1.0 - strips.max_pressure / elements.max_pressure)
     assert np.mean(lower) < before
@@ -116,92 +98,52 @@ def test_the_gap_error_tells_of_pressures_with_two_humps_along_a_strip():
 
 
 @pytest.mark.parametrize(
-    ("rail", "y", "yaw", "roll", "load"),
-    [
-        ("54E1", 7.21e-3, -24e-3, 1.14e-3, 98e3),
-        ("54E1", 7.21e-3, -24e-3, 1.14e-3, 126e3),
-        ("54E1", 7.26e-3, -24e-3, 1.14e-3, 140e3),
-        ("60E1", 6.83e-3, -19.6e-3, 0.5e-3, 110e3),
-    ],
-)
-def test_lobes_that_a_thin_bridge_joins_come_to_rest(rail, y, yaw, roll, load):
+    ("at", "rail", "slope"),
+    [*(((7.21, -24.0, 1.14, load), "54E1", 40) for load in (98.0, 126.0)), ((7.26, -24.0, 1.14, 140.0), "54E1", 40),
+     ((6.83, -19.6, 0.5, 110.0), "60E1", 20)],
+)  # fmt: skip
+def test_lobes_that_a_thin_bridge_joins_come_to_rest(at, rail, slope):
     """NOT_CONVERGED before: lobes that were joined kept the half lengths of one of them, and the search of overlaps left out
     that the lobes lie some 20 mm apart along x."""
-    pair = wheelset.Pair(profile.s1002(), profile.named(rail, inclination=1 / 40 if rail == "54E1" else 1 / 20))
-    (patch,) = (p for p in pair.contacts(wheelset.Pose(y=y, yaw=yaw, roll=roll), load=load) if p.load)
-    assert contact.solve(patch.separation, NO_CREEP, load=patch.load).converged
+    separation, load = patch(*at, rail=rail, slope=slope)
+    assert contact.solve(separation, NO_CREEP, load=load).converged
 
 
 @pytest.mark.parametrize(
-    ("y", "yaw", "roll", "load"),
+    ("at", "wheel", "rail", "slope", "n", "peak"),
     [
-        (3.482e-3, -28.902e-3, 0.389e-3, 60260.0),
-        (3.482e-3, -28.902e-3, 0.389e-3, 62000.0),
-        (4.496e-3, 22.645e-3, 2.705e-3, 73030.0),
-        (4.496e-3, 22.645e-3, 2.705e-3, 74720.0),
+        # A narrow lobe has the largest pressure. It carries a hundredth of the load, so the mean of all residuals did not
+        # tell: its end strips had 2.1, 2.2, 34 and 2.3 times the pressure of the half space, at status OK and a gap error
+        # below .01.
+        *(((3.482, -28.902, 0.389, load), "EPS", "50E1", 40, 60, 0.02) for load in (60.26, 62.0)),
+        *(((4.496, 22.645, 2.705, load), "EPS", "50E1", 40, 60, 0.02) for load in (73.03, 74.72)),
+        # A strip .05 mm wide and 3 mm long near the end of a lobe had 1.4 to 2.9 times the pressure of its neighbours. So the
+        # largest pressure was 21, 46, 60, 50, 31, 33 and 36 % above that of the half space, at status OK and a gap error of
+        # .006 to .015.
+        *(((4.4125, -26.483, 2.146, load), "EPS", "50E1", 40, 300, 0.085) for load in (72.82, 73.52, 74.3, 74.96)),
+        *(((6.2423, 12.576, -0.46, load), "S1002", "49E1", 20, 300, 0.085) for load in (39.85, 40.15, 40.25)),
+        # The ends were fixed before they had come together over a bridge, or inside the contact, and stayed there. As many
+        # iterations from there with ends that move bring them to rest.
+        ((7.696, -24.2556, 2.121, 141.3), "S1002", "54E1", 40, 60, 0.035),
+        ((5.2031, 12.0139, -2.8637, 26.68), "S1002", "54E1", 20, 60, 0.035),
+        ((8.0825, 22.8273, 3.009, 68.6), "S1002", "49E1", 40, 60, 0.035),
+        ((7.4587, 17.7068, 1.9978, 45.62), "1/40", "54E3", 20, 60, 0.035),
+        ((6.5784, -16.647, 0.0241, 56.5), "1/40", "49E1", 40, 60, 0.035),
     ],
 )
-def test_a_narrow_lobe_with_the_largest_pressure_comes_to_rest_by_itself(y, yaw, roll, load):
-    """It carries a hundredth of the load, so the mean of all residuals did not tell: its end strips had 2.1, 2.2, 34 and 2.3
-    times the pressure of the half space, the status was OK and the gap error below .01."""
-    pair = wheelset.Pair(profile.named("EPS"), profile.named("50E1", inclination=1 / 40))
-    (patch,) = (p for p in pair.contacts(wheelset.Pose(y=y, yaw=yaw, roll=roll), load=load) if p.load)
-    strips = contact.solve(patch.separation, NO_CREEP, load=patch.load)
-    elements = contact.solve(patch.separation, NO_CREEP, load=patch.load, **HALF_SPACE)
-    assert strips.max_pressure == pytest.approx(elements.max_pressure, rel=0.02)
-
-
-@pytest.mark.parametrize(
-    ("wheel", "rail", "slope", "y", "yaw", "roll", "load"),
-    [
-        *(("EPS", "50E1", 40, 4.4125e-3, -26.483e-3, 2.146e-3, load) for load in (72820.0, 73520.0, 74300.0, 74960.0)),
-        *(("S1002", "49E1", 20, 6.2423e-3, 12.576e-3, -0.46e-3, load) for load in (39850.0, 40150.0, 40250.0)),
-    ],
-)
-def test_a_strip_that_stands_alone_in_a_slender_lobe_tells_no_peak(wheel, rail, slope, y, yaw, roll, load):
-    """A strip .05 mm wide and 3 mm long near the end of a lobe had 1.4 to 2.9 times the pressure of its neighbours. So the
-    largest pressure was 21, 46, 60, 50, 31, 33 and 36 % above that of the half space, with the status OK and a gap error of
-    .006 to .015."""
-    pair = wheelset.Pair(profile.named(wheel), profile.named(rail, inclination=1 / slope))
-    (patch,) = (p for p in pair.contacts(wheelset.Pose(y=y, yaw=yaw, roll=roll), load=load) if p.load)
-    strips = contact.solve(patch.separation, NO_CREEP, load=patch.load)
-    elements = {**HALF_SPACE, "n_strips": 300, "n_elements": 60}
-    exact = contact.solve(patch.separation, NO_CREEP, load=patch.load, **elements)
-    assert strips.max_pressure == pytest.approx(exact.max_pressure, rel=0.085)
-    assert pytest.approx(patch.load, rel=1e-9) == strips.N
-
-
-def test_many_strips_put_no_spike_at_the_end_of_a_lobe():
-    """With 60 strips an end was fixed inside the contact: 1.5 times the pressure, and the status was OK."""
-    pair = wheelset.Pair(profile.named("EPS"), profile.named("50E1", inclination=1 / 40))
-    pose = wheelset.Pose(y=5.2807e-3, yaw=29.731e-3, roll=4.038e-3)
-    (patch,) = (p for p in pair.contacts(pose, load=81690.0) if p.load)
-    few, many = (contact.solve(patch.separation, NO_CREEP, load=patch.load, n_strips=n) for n in (20, 60))
-    assert many.max_pressure == pytest.approx(few.max_pressure, rel=0.02)
-
-
-@pytest.mark.parametrize(
-    ("wheel", "rail", "slope", "y", "yaw", "roll", "load"),
-    [
-        ("S1002", "54E1", 40, 7.696e-3, -24.2556e-3, 2.121e-3, 141.3e3),
-        ("S1002", "54E1", 20, 5.2031e-3, 12.0139e-3, -2.8637e-3, 26.68e3),
-        ("S1002", "49E1", 40, 8.0825e-3, 22.8273e-3, 3.009e-3, 68.6e3),
-        ("1/40", "54E3", 20, 7.4587e-3, 17.7068e-3, 1.9978e-3, 45.62e3),
-        ("1/40", "49E1", 40, 6.5784e-3, -16.647e-3, 0.0241e-3, 56.5e3),
-    ],
-)
-def test_what_finds_no_rest_is_iterated_once_more(wheel, rail, slope, y, yaw, roll, load):
-    """The ends were fixed before they had come together over a bridge, or inside the contact, and stayed there. As many
-    iterations from there with ends that move bring them to rest; a user who caps the iterations below 60 gets no more."""
-    pair = wheelset.Pair(profile.named(wheel), profile.named(rail, inclination=1 / slope))
-    (patch,) = (p for p in pair.contacts(wheelset.Pose(y=y, yaw=yaw, roll=roll), load=load) if p.load)
-    found = contact.solve(patch.separation, NO_CREEP, load=patch.load)
-    exact = contact.solve(patch.separation, NO_CREEP, load=patch.load, **HALF_SPACE)
-    assert found.converged
-    assert found.max_pressure == pytest.approx(exact.max_pressure, rel=0.035)
+def test_lobes_of_yawed_wheels_have_the_peak_of_the_half_space(at, wheel, rail, slope, n, peak):
+    separation, load = patch(*at, wheel=wheel, rail=rail, slope=slope)
+    found = contact.solve(separation, NO_CREEP, load=load)
+    exact = contact.solve(separation, NO_CREEP, load=load, **HALF_SPACE | {"n_strips": n})
+    assert found.max_pressure == pytest.approx(exact.max_pressure, rel=peak)
     assert found.approach == pytest.approx(exact.approach, rel=0.01)
-    capped = contact.solve(patch.separation, NO_CREEP, load=patch.load, max_iterations=59, throw=False)
-    assert capped.iterations <= 59
+    assert pytest.approx(load, rel=1e-9) == found.N
+
+
+def test_what_finds_no_rest_is_not_iterated_beyond_a_cap_of_the_user():
+    separation, load = patch(8.0825, 22.8273, 3.009, 68.6, rail="49E1")
+    assert contact.solve(separation, NO_CREEP, load=load).iterations > 59
+    assert contact.solve(separation, NO_CREEP, load=load, max_iterations=59, throw=False).iterations <= 59
 
 
 #: Rows y [mm], g [µm], A [1/m] and x_c [mm] of a wheel `eps` on a rail 60E2 (1:20) with a yaw of 28 mrad, where its parabolas
