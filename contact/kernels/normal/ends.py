@@ -164,8 +164,8 @@ def end_move(vectors, n, first, step, cosines, frozen, calm):
         wanted = _by_groups(vectors, n, first, step, cosines, wanted)
     alone = frozen and spur and not punch
     move = END_STEP * (max(wanted, 1.0) if alone else wanted) * (1.0 + cosines[1])
-    if alone and is_far(n, cosines, 0.5 * move):  # no more than a direction: the gap outside tells whether there is contact
-        move = share = 0.0
+    if alone and is_far(n, cosines, 0.5 * move):
+        move = share = 0.0  # no more than a direction: the gap outside tells whether there is contact
     vectors[Vector.END, first] = share
     return move
 
