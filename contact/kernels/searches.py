@@ -67,6 +67,7 @@ ITERATION = record(
     cut:int         1 if idle parts of panels are cut off, so that this iteration has no residuals
     anew:int        1 if a panel was lost or the ends are fixed from here on, so that the best iterate no longer counts
     descending:int  1 if panels step by the Jacobian of an ellipse
+    stuck:int       1 while they do not, since its steps did not make the residuals smaller
     searched:int    1 once the gap outside the panels was searched
     found:int       1 if there was missed contact
     parted:int      number of iterations after which panels were parted

@@ -45,6 +45,9 @@ FREEZE = 16
 PLAIN = 22
 #: The same of strips whose offsets count in full. Skewed strips are mixed then too, as long as their residuals fall.
 PLAIN_SKEWED = 18
+#: Iteration from which on a mean residual above the first number, which has fallen by less than the second one, means that the
+#: steps by the Jacobian of an ellipse lead round in circles, and the residual below which they are tried again.
+_EARLIEST, _LARGE, _FALLS, _SMALL = 4, 0.05, 0.8, 0.02
 #: Iteration from which on strips that are not in line take half the step, and few of them are straightened more: some swing.
 DAMPED = 24
 #: Iteration from which on the ends keep between the places from which they moved outwards and inwards.
@@ -76,7 +79,7 @@ def _reset(problem, warm, state):
     """Set what belongs to a new start."""
     state.begun, state.warm = state.number, warm
     state.approach = problem.result.approach - problem.touch  # ANALYN's, until the first pressures are known
-    state.mixed, state.descending, state.searched, state.parted, state.stiff = 0, 0, 0, 0, 0
+    state.mixed, state.descending, state.stuck, state.searched, state.parted, state.stiff = 0, 0, 0, 0, 0, 0
     state.last_error, state.best = math.inf, math.inf
 
 
@@ -156,7 +159,7 @@ def _can_descend(problem, state):
     rule, vectors = problem.workspace.rule, problem.workspace.space.vectors
     n = rule.across.nodes.size
     plain = PLAIN_SKEWED if problem.skew >= 1.0 else PLAIN
-    if rule.descent.shape[1] != n or state.number - state.begun >= plain or state.cut != 0:
+    if rule.descent.shape[1] != n or state.number - state.begun >= plain or state.cut != 0 or state.stuck != 0:
         return False
     runs = 0
     for p in range(state.n_panels):
@@ -177,11 +180,15 @@ def _fill_step(problem, state):
     rule, vectors = workspace.rule, workspace.space.vectors
     n, age = rule.across.nodes.size, state.number - state.begun
     plain = PLAIN_SKEWED if problem.skew >= 1.0 else PLAIN
-    frozen, before = age >= FREEZE, state.descending
+    frozen, before, residual = age >= FREEZE, state.descending, state.error / state.load
+    if state.stuck != 0:
+        state.stuck = 1 if residual > _SMALL else 0
+    elif age >= _EARLIEST and state.cut == 0 and state.last_error < math.inf:
+        state.stuck = 1 if residual > max(_LARGE, _FALLS * state.last_error) else 0
     state.descending = 1 if _can_descend(problem, state) else 0
     most = 2.0 if age < plain else 1.0
     grown = state.error > most * state.last_error * state.load
-    if state.anew != 0 or grown or state.descending != before or (age >= plain and not skewed):
+    if state.anew != 0 or grown or state.descending != before or state.stuck != 0 or (age >= plain and not skewed):
         state.mixed = 0
     if state.descending != 0:
         if state.mixed > 0:
