@@ -101,7 +101,7 @@ def test_a_removed_panel_leaves_nothing_to_the_next_one():
         vectors[Vector.END] = -1.0
         vectors[Vector.END, own] = vectors[Vector.P, own]
         assert remove_unloaded(n, 1 + unloaded, panels, vectors) == 1
-        end_moves(y, n, 1, panels, cosines, vectors, False, False)
+        end_moves(y, n, 1, panels, cosines, vectors, False, False, False)
         moves.append(vectors[Vector.R, 0])
     assert moves[0] == moves[1] != 0.0
 

@@ -90,7 +90,7 @@ def test_one_move_brings_an_end_most_of_the_way_whatever_the_number_of_strips(n,
     high = 1.0 + 2.0 * off
     p = np.sqrt(np.maximum((middles + 1.0) * (high - middles), 0.0))
     vectors[Vector.P], vectors[Vector.END], vectors[Vector.HALF] = p, p, 0.5 * np.diff(cosines)
-    end_moves(np.array([-10.0, 10.0]), n, 1, panels, cosines, vectors, False, False)
+    end_moves(np.array([-10.0, 10.0]), n, 1, panels, cosines, vectors, False, False, False)
     assert vectors[Vector.R, -1] == pytest.approx(2.0 * off, abs=0.75 * abs(2.0 * off))
     assert vectors[Vector.R, -1] * off > 0.0
 

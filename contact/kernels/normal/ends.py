@@ -143,12 +143,13 @@ def go_far(n, n_panels, panels, cosines, vectors):
 
 
 @kernel
-def end_move(vectors, n, first, step, cosines, frozen, calm):
+def end_move(vectors, n, first, step, cosines, frozen, calm, skewed):
     """Return the outward move of one end of a panel over its half width.
 
     `first` is the strip at this end, `step` the step to its neighbour. The share of the first pressure in the rule replaces
     that pressure in Vector.END. A `frozen` end keeps its place, and idle strips with it, unless the half lengths are `calm` and
-    the pressure rises towards it, as at the corner of a punch or in the last strip alone.
+    the pressure rises towards it, as at the corner of a punch or in the last strip alone. Only to the corner of a punch, and not
+    in `skewed` patches, it may go as far as the rule tells: elsewhere that is a direction, and the gap tells what lies there.
     """
     p0, p1, p2 = vectors[Vector.END, first], vectors[Vector.P, first + step], vectors[Vector.P, first + 2 * step]
     idle = idle_strips(vectors, n, first, step)
@@ -162,17 +163,26 @@ def end_move(vectors, n, first, step, cosines, frozen, calm):
     wanted, share = _wanted(p0, p1, p2, vectors[Vector.P, first + 3 * step] if n > 3 else math.inf)
     if n >= 2 * _COARSEST:
         wanted = _by_groups(vectors, n, first, step, cosines, wanted)
-    alone = frozen and spur and not punch
-    move = END_STEP * (max(wanted, 1.0) if alone else wanted) * (1.0 + cosines[1])
-    if alone and is_far(n, cosines, 0.5 * move):
-        move = share = 0.0  # no more than a direction: the gap outside tells whether there is contact
+    if frozen and not punch:
+        wanted = max(wanted, 1.0)
+    move = END_STEP * wanted * (1.0 + cosines[1])
+    if frozen and (skewed or not punch) and is_far(n, cosines, 0.5 * move):
+        move = share = 0.0
     vectors[Vector.END, first] = share
     return move
 
 
 @entry
 def end_moves(
-    y: Numbers, n: int, n_panels: int, panels: Numbers, cosines: Numbers, vectors: Matrix, frozen: bool, calm: bool
+    y: Numbers,
+    n: int,
+    n_panels: int,
+    panels: Numbers,
+    cosines: Numbers,
+    vectors: Matrix,
+    frozen: bool,
+    calm: bool,
+    skewed: bool,
 ) -> float:
     """Fill Vector.R of the end strips with the moves of all panels' ends. Return the largest move over the width."""
     largest = 0.0
@@ -180,9 +190,9 @@ def end_moves(
         first, last = p * n, p * n + n - 1
         low, high = panels[2 * p], panels[2 * p + 1]
         half = 0.5 * (high - low)
-        move = end_move(vectors, n, first, 1, cosines, frozen, calm)
+        move = end_move(vectors, n, first, 1, cosines, frozen, calm, skewed)
         vectors[Vector.R, first] = max(low - half * move, y[0]) - low
-        move = end_move(vectors, n, last, -1, cosines, frozen, calm)
+        move = end_move(vectors, n, last, -1, cosines, frozen, calm, skewed)
         vectors[Vector.R, last] = min(high + half * move, y[y.size - 1]) - high
         largest = max(largest, max(abs(vectors[Vector.R, first]), abs(vectors[Vector.R, last])) / (high - low))
     return largest

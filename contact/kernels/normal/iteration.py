@@ -142,7 +142,7 @@ def _evaluate(problem, state):
     lost = state.n_panels < before
     calm = not skewed or state.error < CLOSE * math.sqrt(problem.tolerance) * state.load
     state.moved = end_moves(
-        problem.sep.y, n, state.n_panels, panels, workspace.rule.cosines, vectors, age >= FREEZE, calm
+        problem.sep.y, n, state.n_panels, panels, workspace.rule.cosines, vectors, age >= FREEZE, calm, skewed
     )
     if not cut:
         note_sides(n, state.n_panels, panels, vectors, state.mixed == 0 or lost)
@@ -183,7 +183,7 @@ def _fill_step(problem, state):
     frozen, before, residual = age >= FREEZE, state.descending, state.error / state.load
     if state.stuck != 0:
         state.stuck = 1 if residual > _SMALL else 0
-    elif age >= _EARLIEST and state.cut == 0 and state.last_error < math.inf:
+    elif age >= _EARLIEST and state.cut == 0 and state.mixed > 0:  # the same unknowns as before
         state.stuck = 1 if residual > max(_LARGE, _FALLS * state.last_error) else 0
     state.descending = 1 if _can_descend(problem, state) else 0
     most = 2.0 if age < plain else 1.0
