@@ -223,12 +223,11 @@ def turned(points: Points, kind: Kind) -> float:
         low, high = (middle + end for end in TREAD)
     else:
         gauge = np.flatnonzero((z > z.min() + GAUGE_DEPTH) & (np.arange(z.size) < np.argmin(z)))
-        middle = y[gauge[-1]] + CROWN_FROM_GAUGE if gauge.size else 0.5 * (y.min() + y.max())
-        before, behind = (
-            np.flatnonzero(z[part] > z.min() + HEAD_DROP) for part in np.split(np.arange(z.size), [np.argmin(z)])
-        )
-        if before.size and behind.size:
-            middle = 0.5 * (y[before[-1]] + y[np.argmin(z) + behind[0]])
+        middle, top = 0.5 * (y.min() + y.max()), int(np.argmin(z))
+        if gauge.size:
+            middle = y[gauge[-1]] + CROWN_FROM_GAUGE
+            if z[top:].max() > z[top] + HEAD_DROP:  # the field side is there: a head may be narrower
+                middle = min(middle, 0.5 * (y[gauge[-1]] + y.max()))
         low, high = (middle + end for end in TOP)
     inside = (y > low) & (y < high)
     if np.count_nonzero(inside) < 5 or np.ptp(y[inside]) < 0.8 * (high - low):
