@@ -12,6 +12,7 @@ import pytest
 from hypothesis import settings
 
 import contact
+from contact.study import page
 from tests.builds import BUILDS, ROOT
 
 _IS_WORKER = "PYTEST_XDIST_WORKER" in os.environ
@@ -34,7 +35,21 @@ def ellipse() -> contact.Separation:
 @pytest.fixture
 def undrawn(monkeypatch) -> None:
     """Leave pictures out of pages, for tests of their text: each is drawn twice, .7 s."""
-    monkeypatch.setattr("contact.study.page._data", lambda figure: "")
+    monkeypatch.setattr(page, "_data", lambda figure: "")
+
+
+@pytest.fixture
+def drawn_once(monkeypatch) -> None:
+    """Put the first picture of a page in place of all others, for tests of what is around them."""
+    draw = page._data
+    drawn: list[str] = []
+
+    def data(figure) -> str:
+        if not drawn:
+            drawn.append(draw(figure))
+        return drawn[0]
+
+    monkeypatch.setattr(page, "_data", data)
 
 
 @pytest.fixture(scope="session")
