@@ -7,7 +7,6 @@ The methods follow M. Sh. Sichani, "On Efficient Modelling of Wheel-Rail Contact
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
-from contact.citation import cite
 from contact.core.library import get_include, get_library
 from contact.errors import ContactError
 from contact.forces import forces
@@ -22,6 +21,7 @@ from contact.solve import solve
 from contact.solver import THESIS, Solver
 from contact.theory.hertz import HertzContact, hertz
 from contact.version import __version__ as __version__
+from contact.version import cite
 from contact.view.notebook import draw_with
 
 if TYPE_CHECKING:

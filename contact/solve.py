@@ -199,28 +199,23 @@ def solve(
     if trace and progress is None:
         progress = show_step
     solver: Callable[[Creepage], Solution] | Pressed
+    speed = require_number("speed", speed, 0.0)
+    made = partial(Pressed, material=material, friction=surface, speed=speed, progress=progress, layer=layer, load=load)
     if method.elementwise:
-        speed = require_number("speed", speed, 0.0)
         vector = creepage.longitudinal, creepage.lateral, creepage.spin
         doubt_case(load, approach, vector, surface.static, speed)
         if isinstance(separation, Separation):
             doubt_answer(separation.told, fit_error=separation.fit_error)
         solver = press_gap(
-            separation,
-            division,
-            load=load,
-            approach=approach,
-            friction=surface,
-            material=material,
-            speed=speed,
-            conformal=conformal,
-            layer=layer,
-            progress=progress,
+            made, separation, division, load=load, approach=approach, material=material, conformal=conformal
         )
     else:
         first = on_strips(creepage, conformal=False)
         bent = Surface.of(separation) if conformal and isinstance(separation, Separation) else None
-        solver = _rolling(first, bent, load, surface, division, layer, progress)
+        if first.N > 0.0:
+            solver = press_solution(made, first, bent, division)
+        else:
+            solver = lambda given: replace(first, tangential="halfspace", creepage=given)  # noqa: E731
     evaluate = solver.roll if isinstance(solver, Pressed) else solver
     if wanted is None:
         solution = evaluate(creepage)
@@ -322,21 +317,6 @@ def _on_strips(
         if trace:
             show(solver.trace())
         _back(key, solver)
-
-
-def _rolling(
-    first: Solution,
-    bent: Surface | None,
-    load: float | None,
-    friction: Friction,
-    division: Division,
-    layer: ThirdBody | None,
-    progress: Callable[[int, float], None] | None,
-) -> Callable[[Creepage], Solution] | Pressed:
-    """Return the function from creepage to solution, or the elements that roll, under the pressure of `first`."""
-    if first.N <= 0.0:
-        return lambda creepage: replace(first, tangential="halfspace", creepage=creepage)
-    return press_solution(first, bent, load, friction, division, layer, progress)
 
 
 def _patch_coefficients(

@@ -6,7 +6,6 @@ from dataclasses import dataclass
 
 import numpy as np
 import pytest
-import typer
 from typer.testing import CliRunner
 
 import contact
@@ -14,6 +13,7 @@ from contact.accumulation import Histogram
 from contact.cli import cases
 from contact.geometry import profile
 from contact_fmu import archive, profiles, resources
+from contact_fmu.exchange import app
 from contact_models import toml as declared
 from contact_models.runs import checkpoint
 from tests import damaged
@@ -164,9 +164,7 @@ def test_a_file_that_cannot_be_written_leaves_the_old_one(tmp_path):
 def test_the_command_without_options_does_nothing_and_says_what_is_missing(tmp_path):
     path = tmp_path / "user.fmu"
     path.write_bytes(b"anything")
-    app = typer.Typer()
-    app.command()(profiles.replace)
-    done = CliRunner().invoke(app, [str(path)])
+    done = CliRunner().invoke(app, ["profiles", str(path)])
     assert done.exit_code == 2
     assert "give --wheel, --rail or both" in done.stderr
     assert path.read_bytes() == b"anything"

@@ -116,14 +116,12 @@ def patch(
     options = {"friction": surface.law(gauge_friction), "material": arguments.material(pressure_limit)}
     options |= {**vars(methods), "conformal": conformal, **PICTURE_RESOLUTION}
     touches = amount.touches(case, place.speed, options)
-    sides = {name: [t for t in touches if t.side == name] for name in case.sides}
 
     def figure() -> Any:
-        drawn = drawing()
-        wheels = [
-            drawn.Wheel(name, case.wheel, case.rail, [t.patch for t in one], [t.solution for t in one])
-            for name, one in sides.items()
-        ]
+        drawn, wheels = drawing(), []
+        for pair in case.wheels:
+            of = [t for t in touches if t.side == pair.side]
+            wheels.append(drawn.Wheel(pair.side, *pair.profiles, [t.patch for t in of], [t.solution for t in of]))
         return drawn.position(wheels, place.roll)
 
     report.deliver_patches(touches, _title(case), place.radius, output, figure)
@@ -239,8 +237,8 @@ def run(arguments: Sequence[str]) -> None:
 def _title(case: Position | tuple[float, float]) -> str:
     if not isinstance(case, Position):
         return f"Half curvatures {case[0]:g} and {case[1]:g} 1/m"
-    pose = case.pose
+    pose, (wheel, rail) = case.pose, case.wheels[0].profiles
     return (
-        f"{case.wheel.name or 'wheel'} on {case.rail.name or 'rail'}: y = {1e3 * pose.y:g} mm, "
+        f"{wheel.name or 'wheel'} on {rail.name or 'rail'}: y = {1e3 * pose.y:g} mm, "
         f"roll {1e3 * pose.roll:g} mrad, yaw {1e3 * pose.yaw:g} mrad, {case.speed:g} m/s"
     )

@@ -136,9 +136,10 @@ class Wheels(Reading, _OnRails):
         """The profiles of wheel and rail."""
         return self.load(self.wheel, "wheel"), self.load(self.rail, "rail")
 
-    def pair(self, side: str) -> Pair:
-        """Return the wheel of a side on its rail."""
-        return Pair(*self.profiles, side=cast(Any, side), **self.lengths)
+    def pairs(self, *sides: str) -> tuple[Pair, ...]:
+        """Return the wheel of each side on its rail."""
+        both = self.profiles
+        return tuple(Pair(*both, side=cast(Any, side), **self.lengths) for side in sides)
 
 
 @dataclass
@@ -154,15 +155,8 @@ class PlaceOptions(Wheels):
         """Return the wheelset with its profiles."""
         if self.speed == 0.0:
             warn("speed = 0: the wheelset stands, so it has no creepage, and creep forces and damage are 0")
-        return Position(
-            *self.profiles,
-            ("left", "right") if side is opt.SideOption.both else (side.value,),
-            Pose(y=self.y, roll=self.roll, yaw=self.yaw),
-            self.speed,
-            self.radius,
-            self.gauge,
-            self.back_to_back,
-        )
+        sides = ("left", "right") if side is opt.SideOption.both else (side.value,)
+        return Position(self.pairs(*sides), Pose(y=self.y, roll=self.roll, yaw=self.yaw), self.speed)
 
 
 #: Options that do not apply to two given curvatures. Speed and radius do apply; its damage depends on them.

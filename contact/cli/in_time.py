@@ -80,7 +80,7 @@ def in_time(
     if not heights:
         given |= carried(load, vertical)
     law = surface.law()
-    found = WheelRailPair(place.pair(side.value), **vars(methods)).run(
+    found = WheelRailPair(place.pairs(side.value)[0], **vars(methods)).run(
         {**given, **columns},
         friction=law,
         memory=None if friction_memory is None else FrictionMemory(law, *friction_memory),

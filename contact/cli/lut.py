@@ -69,7 +69,7 @@ def lut(
     if side is opt.SideOption.both:
         raise ContactError("--side both: a table is that of one wheel; allowed: left, right")
     axes = dict(map(_breakpoints, axis or ["y=-6e-3:6e-3:49", "yaw=-4e-3:4e-3:9"]))
-    pair = WheelRailPair(wheels.pair(side.value), **vars(methods))
+    pair = WheelRailPair(wheels.pairs(side.value)[0], **vars(methods))
     options: dict[str, Any] = {"friction": surface.law(), "threads": threads}
     options |= {} if "load" in axes else {"load": load_or_standard(load)}
     options |= {} if "speed" in axes else {"speed": speed}

@@ -31,6 +31,19 @@ _OPTIONS = {
     "velocity.forward": "speed",
     "speed": "speed",
 }
+#: Other words in messages of the library → those of the command line.
+_WORDS = (
+    (r"\brepair=True", "--profile-repair"),
+    (r"\b(rows|columns)=\((\w+), (\w+)\)", r"--profile-\1 \2 \3"),
+    (r"\b(zero|smoothing|wavelength)='?([\w.+-]+)'?", r"--profile-\1 \2"),
+    (r"\brotated\((\S+)\) turns the wheel", r"--profile-rotation \1 0 turns the wheel"),
+    (r"\brotated\((\S+)\) turns the rail", r"--profile-rotation 0 \1 turns the rail"),
+    (r"\b(kind|unit|side) = None(?=[:,])", r"--profile-\1"),
+    (r"^(\w+) = .* says how a file is read", r"--profile-\1 says how a file is read"),
+    (r"\bset (unit|side|section)\b", r"set --profile-\1"),
+    (r" \(throw=False [^)]*\)", ""),
+    ("of the given separation; extend y", "of a profile"),
+)
 #: Exit status of a command, besides 0.
 MISSING, BAD_INPUT, NOT_TRUSTED, INTERRUPTED = 1, 2, 3, 130
 Command = TypeVar("Command", bound=Callable[..., None])
@@ -67,22 +80,8 @@ def reported(command: Command) -> Command:
 
 def in_options(text: str, given: Mapping[str, Any]) -> str:
     """Return a message with the options of the command line in place of names of Python. `given` are the command's inputs."""
-    text = re.sub(r"\brepair=True", "--profile-repair", text)
-    text = re.sub(
-        r"\b(rows|columns)=\((\w+), (\w+)\)",
-        lambda found: f"--profile-{found[1]} {found[2].upper()} {found[3].upper()}",
-        text,
-    )
-    text = re.sub(r"\brotated\((\S+)\) turns the wheel", r"--profile-rotation \1 0 turns the wheel", text)
-    text = re.sub(r"\brotated\((\S+)\) turns the rail", r"--profile-rotation 0 \1 turns the rail", text)
-    text = text.replace(" (throw=False returns the solution with this status)", "")
-    text = text.replace("patch reaches the end of the given separation; extend y", "patch reaches the end of a profile")
-    text = re.sub(r"\b(zero|smoothing|wavelength)='?([\w.+-]+)'?", r"--profile-\1 \2", text)
-    text = re.sub(r"^(\w+) = .* says how a file is read", r"--profile-\1 says how a file is read", text)
-    if found := re.search(r"\b(?:(?:kind|unit|side) = None(?:, )?)+: ", text):
-        missing = [f"--profile-{name}" for name in re.findall(r"(\w+) = None", found[0])]
-        text = text.replace(found[0], f"{', '.join(missing)} {'are' if len(missing) > 1 else 'is'} missing: ")
-    text = re.sub(r"\bset (unit|side|section)\b", r"set --profile-\1", text)
+    for words, option in _WORDS:
+        text = re.sub(words, option, text)
     return re.sub(
         rf"\b({'|'.join(map(re.escape, _OPTIONS))}) = ([-+.\de]*\d)", lambda found: _typed(found, given), text
     )

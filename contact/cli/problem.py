@@ -9,11 +9,8 @@ from typing import Any
 
 from contact.cli.document import in_effect
 from contact.errors import ContactError, PlausibilityWarning
-from contact.geometry import wheelset
-from contact.geometry.profile import Profile
-from contact.geometry.wheelset import Patch, Pose, Velocity
+from contact.geometry.wheelset import Pair, Patch, Pose, Velocity
 from contact.inputs.creepage import Creepage
-from contact.inputs.options import FLANGE_BACK, GAUGE
 from contact.inputs.separation import Separation
 from contact.results import Solution
 from contact.solve import solve
@@ -38,42 +35,26 @@ class Touch:
 
 @dataclass(frozen=True)
 class Position:
-    """A wheelset on its rails: profiles in the right-side convention, sides to solve, pose, speed [m/s], lengths [m]."""
+    """A wheelset on its rails: the wheels to solve, pose and speed [m/s]."""
 
-    wheel: Profile
-    rail: Profile
-    sides: Sequence[str]
+    wheels: Sequence[Pair]
     pose: Pose
     speed: float
-    radius: float
-    gauge: float = GAUGE.usual
-    back_to_back: float = FLANGE_BACK.usual
 
 
 def find_patches(case: Position, load: float | None, penetration: float | None) -> Iterator[tuple[str, int, Patch]]:
     """Yield side, number and record of every patch of the wheels. `load` [N] is the vertical load of each wheel."""
-    load = standard_load(load, penetration)
-    for side in case.sides:
-        found = wheelset.contacts(
-            case.wheel,
-            case.rail,
-            case.pose,
-            Velocity(forward=case.speed),
-            load=load,
-            penetration=penetration,
-            side=side,
-            nominal_radius=case.radius,
-            gauge=case.gauge,
-            flange_back=case.back_to_back,
-        )
+    load, velocity = standard_load(load, penetration), Velocity(forward=case.speed)
+    for pair in case.wheels:
+        found = pair.contacts(case.pose, velocity, load=load, penetration=penetration)
+        pair.doubt(case.pose, velocity, load)
         for number, patch in enumerate(found, 1):
-            yield side, number, patch
+            yield pair.side, number, patch
 
 
 def main_patch(case: Position, load: float) -> Patch:
     """Return the patch with the largest normal force of the first wheel under its vertical `load` [N]."""
-    first = case.sides[0]
-    found = [patch for side, _, patch in find_patches(case, load, None) if side == first]
+    found = [patch for _, _, patch in find_patches(replace(case, wheels=case.wheels[:1]), load, None)]
     if not found:
         raise ContactError(f"load = {load:g}: the wheel does not touch its rail, so there is no creep curve")
     return max(found, key=lambda patch: patch.load or 0.0)

@@ -55,8 +55,8 @@ def rail(
     elastic = ElasticRail(*springs, *preload)
     case = place.position(side)
     rows: list[dict[str, Any]] = []
-    for name in case.sides:
-        solver = WheelRailPair(place.pair(name), **vars(methods))
+    for pair in case.wheels:
+        solver = WheelRailPair(pair, **vars(methods))
         velocity = Velocity(forward=place.speed, spin=spin)
         options: dict[str, Any] = {"friction": surface.law(), "rail": elastic, **carried(load, vertical)}
         options["offset"] = WheelOffset(*wheel_offset) if any(wheel_offset) else None
@@ -64,7 +64,7 @@ def rail(
         s = solver.solve(case.pose, velocity, **options)
         rows.append(
             {
-                "side": name,
+                "side": pair.side,
                 "deflection_y": s.deflection[0],
                 "deflection_z": s.deflection[1],
                 **{f"F{axis}": float(f) for axis, f in zip("xyz", s.force, strict=True)},

@@ -32,12 +32,13 @@ def roller(
     Example:  contact roller 0.6 --y 3e-3 --load 60e3 --spin -43.5
     """
     case = place.position(opt.SideOption.right)
-    rig = RollerRig(place.pair("right"), roller_radius, offset=offset, **vars(methods))
+    (pair,) = case.wheels
+    rig = RollerRig(pair, roller_radius, offset=offset, **vars(methods))
     velocity = Velocity(forward=place.speed, spin=spin)
     found = rig.solve(case.pose, velocity, **carried(load, vertical), friction=surface.law())
     touches = [
         Touch(cast(Solution, one.solution), "right", cast(Patch, one.patch), k)
         for k, one in enumerate(found.contacts, 1)
     ]
-    title = f"{case.wheel.name or 'wheel'} on a roller of {roller_radius:g} m: y = {1e3 * place.y:g} mm"
+    title = f"{pair.profiles[0].name or 'wheel'} on a roller of {roller_radius:g} m: y = {1e3 * place.y:g} mm"
     report.deliver_patches(touches, title, place.radius, output)

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, fields
 from typing import TYPE_CHECKING, Literal, NamedTuple, get_args
 
 import numpy as np
 
-from contact.arrays import Array
+from contact.arrays import Array, brief
 from contact.damage.archard import ArchardMap
 from contact.damage.burstow import Burstow
 from contact.damage.pearce_sherratt import PearceSherratt
@@ -84,15 +84,17 @@ class DamageParameters:
         return made
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, eq=False)
 class IndexField:
     """An index over the patch, shape (n_strips, n_elements) [Pa], and its maximum [Pa]."""
 
     field: Array
     max: float
 
+    __repr__ = brief
 
-@dataclass(frozen=True, slots=True)
+
+@dataclass(frozen=True, slots=True, eq=False)
 class ArchardWear:
     """Archard's sliding wear, spread over the circumference of the wheel.
 
@@ -110,6 +112,8 @@ class ArchardWear:
     depth_max: float
     volume: float
     wheel_radius: float
+
+    __repr__ = brief
 
     @property
     def depth_per_revolution(self) -> Array:
@@ -185,12 +189,7 @@ def evaluate(
     assessed = assess(solution, wheel_radius, parameters)
     number, damage_fields = assessed.damage, assessed.damage_fields
     return Damage(
-        T_gamma=float(number.T_gamma),
-        T_gamma_spin=float(number.T_gamma_spin),
-        dissipation=float(number.dissipation),
-        pearce_sherratt=float(number.pearce_sherratt),
-        burstow=float(number.burstow),
-        usfd=float(number.usfd),
+        **{one.name: float(number[one.name]) for one in fields(Damage) if one.type == "float"},
         archard=ArchardWear(
             depth=damage_fields[DamageField.DEPTH],
             depth_per_strip=damage_fields[DamageField.DEPTH].sum(axis=1),
@@ -198,7 +197,6 @@ def evaluate(
             volume=float(number.archard_volume),
             wheel_radius=wheel_radius,
         ),
-        fatigue_index=float(number.fatigue_index),
         stress_index=IndexField(damage_fields[DamageField.STRESS_INDEX], float(number.stress_index)),
         energy_index=IndexField(damage_fields[DamageField.ENERGY_INDEX], float(number.energy_index)),
         tangential=solution.tangential,

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import replace
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 
@@ -16,7 +16,7 @@ from contact.halfspace.curved import BentCoupling
 from contact.halfspace.driven import GivenForces
 from contact.halfspace.heat import heat_up
 from contact.halfspace.norm import Normal
-from contact.halfspace.solution import GridSolution, assemble
+from contact.halfspace.solution import GridSolution, PressedRecord, assemble
 from contact.halfspace.tang import OFFSET, Tangential, prepare, tang
 from contact.halfspace.third_body import Sheared, ThirdBody, solve_layer
 from contact.halfspace.unlike import Coupling
@@ -36,16 +36,6 @@ _MAX_TURNS, _TURN_TOLERANCE = 40, 1e-6
 #: Tolerance of the traction at the end, and that of the first turn. In between it is this share of the last change. That of
 #: the pressure is a hundredth, at least 1e-7.
 _FINE, _LOOSE, _SHARE_OF_CHANGE = 1e-6, 0.03, 0.05
-
-
-class PressedRecord(NamedTuple):
-    """Result of the normal problem: approach [m], stiffness [N/m]."""
-
-    approach: float
-    stiffness: float
-    iterations: int
-    status: Status
-    normal: str
 
 
 class Pressed:
@@ -102,16 +92,11 @@ class Pressed:
             self.p,
             rolling,
             rows,
-            approach=record.approach,
-            stiffness=record.stiffness,
-            iterations=record.iterations + rolling.iterations,
-            status=record.status if kept else Status.NOT_CONVERGED,
+            record if kept else record._replace(status=Status.NOT_CONVERGED),
             creepage=creepage,
             friction=coefficient,
             material=self.material,
             speed=self.speed,
-            normal=record.normal,
-            tangential="halfspace",
             layer=self._sheared,
             surface=self.surface,
         )

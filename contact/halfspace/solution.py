@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -55,29 +56,35 @@ class GridSolution(Solution):
         return np.where(inside, np.sqrt((1.0 - v) * low + v * high), 0.0)
 
 
+class PressedRecord(NamedTuple):
+    """Result of the normal problem: approach [m], stiffness [N/m]."""
+
+    approach: float
+    stiffness: float
+    iterations: int
+    status: Status
+    normal: str = "halfspace"
+
+
 def assemble(
     x: Array,
     y: Array,
     p: Array,
     rolling: Tangential,
     row_geometry: Bent,
+    record: PressedRecord,
     *,
-    approach: float,
-    stiffness: float,
-    iterations: int,
-    status: Status,
     creepage: Creepage,
     friction: float,
     material: Material,
     speed: float,
-    normal: str,
-    tangential: str,
+    tangential: str = "halfspace",
     layer: Sheared | None = None,
     surface: Surface | None = None,
 ) -> GridSolution:
     """Return the solution from fields of shape (ny, nx) over increasing `x`, `y` [m], `y` along the surface.
 
-    `row_geometry` holds place, creepages and slope of each row.
+    `row_geometry` holds place, creepages and slope of each row, `record` the normal problem, with the status of both.
     """
     touching = p > 0.0
     rows, columns = np.flatnonzero(touching.any(axis=1)), np.flatnonzero(touching.any(axis=0))
@@ -108,6 +115,7 @@ def assemble(
     bent = bool(row_geometry.tilt.any())
     sideways = cosine * slope * p[box]
     fx, fy = qx, cosine * qy + sideways
+    status = record.status
     if status is Status.OK and rows.size and friction > 0.0 and slips.sum() == inside.sum():
         status = Status.SATURATED
     return GridSolution(
@@ -115,16 +123,16 @@ def assemble(
         Fy=float(fy.sum()) * force,
         Mz=float((grid_x * fy - grid_y * fx).sum()) * force,
         N=float((p * level).sum() - (qy * cosine * slope).sum()) * force,
-        approach=float(approach),
+        approach=float(record.approach),
         max_pressure=float(p.max()),
         area=area,
         slip_area=float((slips * cosine).sum()) * force,
         power_per_metre=abs(float((qx * sx + qy * sy).sum())) * force,
-        normal_stiffness=stiffness,
+        normal_stiffness=record.stiffness,
         length=length,
         width=float(edges[-1, 1] - edges[0, 0]) if count else 0.0,
         n_patches=count,
-        iterations=iterations,
+        iterations=record.iterations + rolling.iterations,
         status=status,
         strips=Strips(
             y=row_geometry.y[rows],
@@ -152,7 +160,7 @@ def assemble(
         friction=friction,
         material=material,
         speed=speed,
-        normal=normal,
+        normal=record.normal,
         tangential=tangential,
         pressure_y=float(sideways.sum()) * force,
         bend=float(np.ptp(np.arctan(row_geometry.tilt[rows]))) if rows.size else 0.0,

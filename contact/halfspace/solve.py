@@ -10,12 +10,11 @@ import numpy as np
 
 from contact.arrays import Array
 from contact.errors import ContactError
-from contact.friction import Friction
 from contact.halfspace.bent import Surface
 from contact.halfspace.gap import Division, Gap, lay, least, overlap
 from contact.halfspace.norm import Normal, norm
-from contact.halfspace.pressed import Pressed, PressedRecord
-from contact.halfspace.third_body import ThirdBody
+from contact.halfspace.pressed import Pressed
+from contact.halfspace.solution import PressedRecord
 from contact.inputs.material import Material
 from contact.inputs.separation import Separation
 from contact.results import Solution, Status
@@ -27,19 +26,16 @@ _ROOM, _ROOM_BENT = 1.02, 1.1
 
 
 def press_gap(
+    made: Callable[..., Pressed],
     gap: Separation | Gap,
     division: Division,
     *,
     load: float | None,
     approach: float | None,
-    friction: Friction,
     material: Material,
-    speed: float,
     conformal: bool,
-    layer: ThirdBody | None,
-    progress: Callable[[int, float], None] | None,
 ) -> Pressed:
-    """Return the normal problem of a gap, solved by NORM. Arguments as in `contact.solve`."""
+    """Return the normal problem of a gap, solved by NORM. Arguments as for `contact.solve`; `made` has the others."""
     surface = Surface.of(gap) if conformal and isinstance(gap, Separation) else None
     flat = gap if surface is None or isinstance(gap, Gap) else surface.unrolled()
     grid = flat if isinstance(flat, Gap) else grid_of(flat, load, approach, material, division, surface is not None)
@@ -52,7 +48,7 @@ def press_gap(
         x, y = grid.x, grid.y
         found = norm(grid.h, grid.dx, grid.dy, material, load=load, approach=approach, tilt=tilt)
     status = status_of(flat, found.p, y, found.converged)
-    record = PressedRecord(found.approach, found.stiffness, found.iterations, status, "halfspace")
+    record = PressedRecord(found.approach, found.stiffness, found.iterations, status)
 
     def again(opening: Array, p: Array, borne: float, tolerance: float) -> Normal:
         assert grid is not None
@@ -62,34 +58,15 @@ def press_gap(
         new = norm(h, grid.dx, grid.dy, material, start=cosine * p, tilt=tilt, **to)
         return replace(new, p=new.p / cosine)
 
-    return Pressed(
-        x,
-        y,
-        found.p / cosine,
-        record,
-        surface=surface,
-        material=material,
-        friction=friction,
-        speed=speed,
-        progress=progress,
-        layer=layer,
-        again=again,
-        load=load,
-    )
+    return made(x, y, found.p / cosine, record, surface=surface, again=again)
 
 
 def press_solution(
-    first: Solution,
-    surface: Surface | None,
-    load: float | None,
-    friction: Friction,
-    division: Division,
-    layer: ThirdBody | None,
-    progress: Callable[[int, float], None] | None,
+    made: Callable[..., Pressed], first: Solution, surface: Surface | None, division: Division
 ) -> Pressed:
     """Return the normal problem of a solution with contact: its pressure, N, approach and normal stiffness.
 
-    `surface` is the curved surface in which the bodies touch; None for the plane. `load` [N] is None if the approach is given.
+    `surface` is the curved surface in which the bodies touch; None for the plane. `made` is as for `press_gap`.
     """
     low, high = float(first.patch_edges.min()), float(first.patch_edges.max())
     if surface is not None:
@@ -104,19 +81,7 @@ def press_solution(
     p *= first.N / total
     status = Status.OK if first.status is Status.SATURATED else first.status
     record = PressedRecord(first.approach, first.normal_stiffness, first.iterations, status, first.normal)
-    return Pressed(
-        x,
-        y,
-        p,
-        record,
-        surface=surface,
-        material=first.material,
-        friction=friction,
-        speed=first.speed,
-        progress=progress,
-        layer=layer,
-        load=load,
-    )
+    return made(x, y, p, record, surface=surface)
 
 
 def status_of(gap: Separation | Gap, p: Array, y: Array, converged: bool) -> Status:

@@ -30,7 +30,7 @@ from contact.halfspace.gap import Division, Gap
 from contact.halfspace.lattice import bent_rows
 from contact.halfspace.local_law import LocalLaw, of_each_element
 from contact.halfspace.norm import Normal, norm
-from contact.halfspace.solution import GridSolution, assemble
+from contact.halfspace.solution import GridSolution, PressedRecord, assemble
 from contact.halfspace.solve import grid_of, status_of
 from contact.halfspace.state import State
 from contact.halfspace.step import Stepper
@@ -386,15 +386,10 @@ class Transient(OwnsArrays):
             normal.p,
             found,
             bent_rows(grid, outcome.creepage),
-            approach=normal.approach,
-            stiffness=normal.stiffness,
-            iterations=normal.iterations + found.iterations,
-            status=status,
+            PressedRecord(normal.approach, normal.stiffness, normal.iterations, status),
             creepage=outcome.creepage,
             friction=friction.static if mu is None else mu,
             material=self.material,
             speed=self.speed,
-            normal="halfspace",
-            tangential="halfspace",
             layer=outcome.sheared,
         )

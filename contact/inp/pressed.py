@@ -8,7 +8,7 @@ import numpy as np
 
 from contact.halfspace import Gap, GridSolution, Normal, norm
 from contact.halfspace.bent import Bent
-from contact.halfspace.solution import assemble
+from contact.halfspace.solution import PressedRecord, assemble
 from contact.halfspace.tang import Tangential
 from contact.inp import approximate, simplified
 from contact.inp.case import Case
@@ -99,14 +99,10 @@ def on_patch(case: Case, gap: Gap, found: Normal, creepage: Creepage, speed: flo
         p,
         rolling,
         Bent.plane(creepage, gap.y),
-        approach=found.approach,
-        stiffness=found.stiffness,
-        iterations=found.iterations,
-        status=status,
+        PressedRecord(found.approach, found.stiffness, found.iterations, status),
         creepage=creepage,
         friction=friction,
         material=bodies,
         speed=speed,
-        normal="halfspace",
         tangential="fastrip" if case.digits["M"] == 5 else "fastsim",
     )

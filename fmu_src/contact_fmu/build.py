@@ -129,7 +129,7 @@ def _validate(options: Options, paths: Sequence[Path], model: Model) -> None:
         return
     for path in paths:
         is_python = path.parent.name == "python"
-        exchange = not is_python and model.component().exchange
+        exchange = not is_python and model.component.exchange
         of = model.options.get("vehicle")
         made = validation.write(
             path, model.table, options.validation, exchange=exchange, force=options.force, vehicle=of

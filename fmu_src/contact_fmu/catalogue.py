@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from functools import cache
-from importlib import import_module
+from functools import cache, cached_property
 from pathlib import Path
 from typing import Any
 
@@ -17,6 +16,8 @@ from contact_models.runs import scenario
 from contact_models.wheelset import system as wheelset
 from . import profiles, starts
 from . import surfaces as slices
+from .native import components
+from .native.component import Component
 from .tables.vehicle import START, TRACK
 from .tables.wheel_rail_contact import POINTS
 from .track import pack, pack_rows
@@ -25,30 +26,21 @@ from .variables import Table
 
 @dataclass(frozen=True)
 class Model:
-    """An FMU: name of its module in `tables`, options of its table and component, and its files in resources/.
+    """An FMU: the function of `native.components` that declares it, its arguments, and its files in resources/."""
 
-    `view` are options that change only what hosts see of the table. `declared` names the function of `native.components`.
-    """
-
-    name: str
-    options: Mapping[str, Any]
+    declared: str
+    options: dict[str, Any]
     resources: Mapping[str, bytes] = field(default_factory=dict)
-    view: Mapping[str, bool] = field(default_factory=dict)
-    declared: str = ""
 
     @property
     def table(self) -> Table:
         """Variable table of the FMU."""
-        return import_module(f".tables.{self.name}", __package__).table(**self.all_options)
+        return self.component.table
 
-    @property
-    def all_options(self) -> dict[str, Any]:
-        """Options of table and component."""
-        return {**self.options, **self.view}
-
-    def component(self) -> Any:
-        """Return what the FMU has beside its table (`native.component.Component`)."""
-        return getattr(import_module(".native.components", __package__), self.declared)(**self.all_options)
+    @cached_property
+    def component(self) -> Component:
+        """What the FMU has beside its table, and the table."""
+        return getattr(components, self.declared)(**self.options)
 
 
 def models(points: int, given: Mapping[Kind, Profile] | None = None, accumulation: bool = False) -> tuple[Model, ...]:
@@ -62,14 +54,12 @@ def models(points: int, given: Mapping[Kind, Profile] | None = None, accumulatio
     both: dict[Kind, Profile] = {"wheel": profile.s1002(), "rail": profile.rail_60e1(0.0), **(given or {})}
     inclination = 0.0 if given and "rail" in given else 1.0 / 40.0
     return (
-        Model("wheel_rail_contact", {"points": points}, declared="contact"),
-        Model("wheel_rail_contact", {"points": points}, view={"elliptic": True}, declared="contact"),
+        Model("contact", {"points": points}),
+        Model("contact", {"points": points, "elliptic": True}),
         Model(
-            "wheel_rail_pair",
-            {"inclination": inclination},
-            profiles.resources(both["wheel"], both["rail"]),
-            {"accumulation": accumulation},
             "pair",
+            {"inclination": inclination, "accumulation": accumulation},
+            profiles.resources(both["wheel"], both["rail"]),
         ),
         axle(),
     )
@@ -80,15 +70,13 @@ def axle() -> Model:
     """Return the FMU `Wheelset`: the included vehicle of one wheelset without contacts, on straight track."""
     its = starts.of_simulation(wheelset.scenario(), wheelset.simulation(wheelset.scenario()), 0.0)
     options = {"vehicle": wheelset.scenario().declared.vehicle, "starts": its, "name": "Wheelset"}
-    return Model("open_vehicle", options, {TRACK: pack_rows(wheelset.track())}, declared="vehicle_alone")
+    return Model("vehicle_alone", options, {TRACK: pack_rows(wheelset.track())})
 
 
 def surfaces(given: Mapping[Kind, Profile] | None = None) -> Model:
     """Return the native FMU of surfaces that change along the way, with the profiles of `models` all along."""
     both: dict[Kind, Profile] = {"wheel": profile.s1002(), "rail": profile.rail_60e1(), **(given or {})}
-    return Model(
-        "wheel_rail_surfaces", {}, slices.of_pair(SurfacePair(both["wheel"], both["rail"])), declared="surface_pair"
-    )
+    return Model("surface_pair", {}, slices.of_pair(SurfacePair(both["wheel"], both["rail"])))
 
 
 def vehicles(path: Path, given: Mapping[Kind, Profile] | None = None) -> tuple[Model, ...]:
@@ -104,15 +92,15 @@ def vehicles(path: Path, given: Mapping[Kind, Profile] | None = None) -> tuple[M
     """
     declared = scenario.read(path)
     declared.require_profiles(path.name, "the FMUs of a vehicle take")
-    pair = next(model for model in models(POINTS, given) if model.name == "wheel_rail_pair")
+    pair = next(model for model in models(POINTS, given) if model.declared == "pair")
     beside = path.parent / declared.declared.vehicle
     vehicle = str(beside) if beside.is_file() else declared.declared.vehicle
     track = {TRACK: pack(declared)}
     try:
-        its = {"vehicle": vehicle, **pair.options, "starts": starts.vehicle(declared, START)}
+        inclination = pair.options["inclination"]
+        its = {"vehicle": vehicle, "inclination": inclination, "starts": starts.vehicle(declared, START)}
         alone = {"vehicle": vehicle, "starts": starts.open_vehicle(declared, START)}
-        whole = Model("vehicle", its, {**pair.resources, **track}, declared="whole_vehicle")
-        found = whole, Model("open_vehicle", alone, track, declared="vehicle_alone")
+        found = Model("whole_vehicle", its, {**pair.resources, **track}), Model("vehicle_alone", alone, track)
         for model in found:
             _ = model.table  # checks the starts
     except ContactError as error:

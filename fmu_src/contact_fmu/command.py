@@ -11,8 +11,7 @@ from contact.cli import arguments
 from contact.cli import options as opt
 from contact.cli.document import document
 from contact.cli.output import reported, stop
-from .options import Options
-from .profiles import RailName, WheelName
+from .options import Options, RailName, WheelName
 
 
 @reported

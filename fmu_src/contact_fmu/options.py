@@ -11,6 +11,10 @@ import typer
 
 from .tables.wheel_rail_contact import POINTS
 
+_NAME = "a name of `contact profiles`, or a file"
+WheelName = Annotated[str | None, typer.Option("--wheel", help=f"Profile of the wheel: {_NAME}.")]
+RailName = Annotated[str | None, typer.Option("--rail", help=f"Profile of the rail: {_NAME}.")]
+
 
 class Packaging(StrEnum):
     """Whether the FMU is for hosts with Python, for any host (native), or both."""

@@ -1,21 +1,14 @@
 """Profiles as resources of an FMU. Their points and tangents are read when an instance is made.
 
-`python -m contact_fmu.profiles FMU [--wheel NAME|FILE] [--rail NAME|FILE]` replaces the profiles in a finished
-FMU. This needs no compiler.
-
 A resource (`contact_fmu.resources`) has the rows y [m], z [m] and the angle of the tangent [rad].
 """
 
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Annotated, Any
 
 import numpy as np
-import typer
 
-from contact.cli import arguments
-from contact.cli.output import reported
 from contact.errors import ContactError
 from contact.geometry import profile
 from contact.geometry.profile import Kind, Profile
@@ -27,10 +20,6 @@ from .tables.wheel_rail_pair import RAIL, WHEEL
 ROWS = 3
 MAGIC: dict[Kind, bytes] = {"wheel": b"wr-wheel", "rail": b"wr-rail\0"}
 _RESOURCES: dict[Kind, str] = {"wheel": WHEEL, "rail": RAIL}
-_NAME = "a name of `contact profiles`, or a file"
-WheelName = Annotated[str | None, typer.Option("--wheel", help=f"Profile of the wheel: {_NAME}.")]
-RailName = Annotated[str | None, typer.Option("--rail", help=f"Profile of the rail: {_NAME}.")]
-Given = Annotated[Path, typer.Argument(help="Finished FMU.", show_default=False)]
 
 
 def pack(given: Profile) -> bytes:
@@ -65,20 +54,3 @@ def exchange(fmu: Path, profiles: dict[Kind, Profile]) -> None:
     """
     new = {f"resources/{_RESOURCES[kind]}": pack(given) for kind, given in profiles.items()}
     archive.exchange(fmu, new, "a WheelRailPair FMU")
-
-
-@reported
-def replace(fmu: Given, *, wheel: WheelName = None, rail: RailName = None, reading: arguments.Reading) -> None:
-    """Replace the profiles in a finished WheelRailPair FMU."""
-    exchange(fmu, require_any(reading.chosen(wheel, rail)))
-
-
-def require_any(new: dict[Any, Any]) -> dict[Any, Any]:
-    """Return what is new. Raise a ContactError if there is nothing."""
-    if not new:
-        raise ContactError("nothing to do: give --wheel, --rail or both")
-    return new
-
-
-if __name__ == "__main__":
-    typer.run(replace)

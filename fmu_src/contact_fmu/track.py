@@ -1,22 +1,14 @@
-"""A track as a resource of the FMUs of vehicles: the rows of `contact_models.vehicle.course.lay`, without the speed, an input.
-
-`python -m contact_fmu.track FMU SCENARIO` replaces the track in a finished FMU by that of a scenario.
-"""
+"""A track as a resource of the FMUs of vehicles: the rows of `contact_models.vehicle.course.lay`, but for the speed."""
 
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Annotated
-
-import typer
 
 from contact.arrays import Array
-from contact.cli.output import reported
-from contact_models.runs import scenario, simulated
+from contact_models.runs import simulated
 from contact_models.runs.scenario import Scenario
 from contact_models.vehicle.kernels.layout import TrackRow
 from . import archive, resources
-from .profiles import Given
 from .tables.vehicle import TRACK
 
 MAGIC = b"wr-track"
@@ -47,17 +39,3 @@ def exchange(fmu: Path, given: Scenario) -> None:
         If the file is not the FMU of a vehicle.
     """
     archive.exchange(fmu, {f"resources/{TRACK}": pack(given)}, "the FMU of a vehicle")
-
-
-@reported
-def replace(
-    fmu: Given, file: Annotated[Path, typer.Argument(help="TOML file of a scenario with the table [track]")]
-) -> None:
-    """Replace the track in a finished FMU of a vehicle."""
-    given = scenario.read(file)
-    given.require_profiles(file.name, "the FMUs of a vehicle take")
-    exchange(fmu, given)
-
-
-if __name__ == "__main__":
-    typer.run(replace)

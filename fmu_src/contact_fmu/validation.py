@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import re
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -99,9 +98,7 @@ def _write(fmu: Path, table: Table, place: Path, short: str, version: str, vehic
     if arrays:
         _csv(place / f"{name}_arrays.csv", answer["time"], arrays, ";")
     options = {"StartTime": 0.0, "StopTime": given.time[-1], "StepSize": given.step, "RelTol": 1e-6}
-    (place / f"{name}_ref.opt").write_text(
-        "".join(f"{k},{v!r}\n" for k, v in _floats(options).items()), encoding="utf-8"
-    )
+    (place / f"{name}_ref.opt").write_text("".join(f"{k},{float(v)!r}\n" for k, v in options.items()), encoding="utf-8")
     rows = [f'"{one}",{tolerance(one, answer[one])!r}\n' for one in (*names, *arrays)]
     (place / "tolerances.csv").write_text("output,tolerance\n" + "".join(rows), encoding="utf-8")
     text = _README.format(
@@ -110,10 +107,6 @@ def _write(fmu: Path, table: Table, place: Path, short: str, version: str, vehic
         n=len(given.time), fmpy=fmpy.__version__, scenes=_scenes(table, given), physics="; ".join(physics),
     )  # fmt: skip
     (place / "README.md").write_text(text, encoding="utf-8")
-
-
-def _floats(options: dict[str, Any]) -> dict[str, float]:
-    return {name: float(value) for name, value in options.items()}
 
 
 def _scenes(table: Table, given: Case) -> str:

@@ -90,7 +90,7 @@ class Host:
         self.resources = resources_of(unzipped, system)
         every = models(POINTS, accumulation=True) if name in ROLES else (*models(POINTS), *vehicles(SCENARIO))
         (model,) = (model for model in every if model.table.name == name)
-        its = model.component()
+        its = model.component
         (folder / "model.h").write_text(source.header(its, self.guid))
         (folder / "roles.h").write_text(roles(its))
         self.program = folder / f"host{program}"
@@ -224,7 +224,7 @@ def kernel_library(folder: Path, cpu: str) -> Path:
     """Build a Linux library of the kernels for one processor (size, prepare, outputs) and return its path."""
     library = folder / f"kernels_{cpu}.so"
     code = Path(__file__).with_name("kernels.c")
-    own = ", ".join(map(str, models(POINTS)[0].component().own))
+    own = ", ".join(map(str, models(POINTS)[0].component.own))
     (folder / "own.h").write_text(f"static const int64_t own[] = {{{own}}};\n")
     run(
         *compiler("linux64"),

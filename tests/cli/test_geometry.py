@@ -103,7 +103,7 @@ def test_check_names_faults_and_draws_them(tmp_path):
     assert "; --profile-repair drops them" in call(*words).stdout, "the option of this command line"
     assert "; --profile-repair drops them" in call("solve", "--wheel", path, *words[4:]).stderr
     without = call("solve", "--wheel", path, code=2).stderr
-    assert "contact: --profile-unit, --profile-side are missing: 'wheel.txt' does not say its unit, side" in without
+    assert "contact: --profile-unit, --profile-side: 'wheel.txt' does not say its unit, side" in without
     assert "  repair dropped 1 of 593 points (spikes)" in call(*words, "--profile-repair").stdout
     result = call("check", tmp_path, tmp_path / "no.whl", *words[2:], code=2)
     assert "no.whl' is missing" in result.stdout

@@ -133,12 +133,9 @@ def test_the_kind_of_a_checked_file_has_the_name_of_the_other_options(tmp_path):
     for name in ("--profile-kind", "--kind"):
         assert "nothing found" in call(*rest, name, "wheel").stdout
     output = call("check", path, code=2).stdout
-    assert (
-        "--profile-kind, --profile-unit, --profile-side are missing: 'wheel.txt' does not say its kind, unit, side"
-        in output
-    )
+    assert "--profile-kind, --profile-unit, --profile-side: 'wheel.txt' does not say its kind, unit, side" in output
     alone = call(*rest, code=2).stdout
-    assert "--profile-kind is missing: 'wheel.txt' does not say its kind; give kind 'wheel' or 'rail'" in alone
+    assert "--profile-kind: 'wheel.txt' does not say its kind; give kind 'wheel' or 'rail'" in alone
 
 
 def test_solve_on_rails_gives_the_numbers_of_the_geometry_and_the_solver():

@@ -41,5 +41,5 @@ def test_damaged_resources_are_refused_and_raise_nothing(folder, text):
 
 def test_the_starts_of_a_wheelset_read_back(folder):
     model = axle()
-    text = declared(model.declared, model.all_options, GUID)
-    assert _model(text) == ("Wheelset", content(model.component(), GUID))
+    text = declared(model.declared, model.options, GUID)
+    assert _model(text) == ("Wheelset", content(model.component, GUID))

@@ -24,7 +24,7 @@ def roots():
     """Return the description of every FMU by its name."""
     found = {}
     for model in (*models(POINTS), *vehicles(SCENARIO), surfaces()):
-        component = model.component()
+        component = model.component
         interfaces = {k: v for k, v in INTERFACES.items() if component.exchange or k == "CoSimulation"}
         found[component.table.name] = ElementTree.fromstring(
             model_description(component.table, interfaces)[1].encode("utf-8")

@@ -84,7 +84,7 @@ def test_the_fmus_have_the_profiles_of_the_scenario(tmp_path):
     plain, _ = vehicles(path)
     assert whole.resources["wheel.profile"] == plain.resources["wheel.profile"]
     assert whole.resources["rail.profile"] != plain.resources["rail.profile"]
-    pair = next(model for model in models(POINTS, given) if model.name == "wheel_rail_pair")
+    pair = next(model for model in models(POINTS, given) if model.declared == "pair")
     assert whole.resources["rail.profile"] == pair.resources["rail.profile"]  # the system of both is of one profile
     path.write_text(HEAD.format("manchester"))
     assert starts.profiles(scenario.read(path)) == {}

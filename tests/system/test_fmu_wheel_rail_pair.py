@@ -71,7 +71,7 @@ def exchanged(file: Path, folder: Path) -> tuple[Path, list[profile.Profile]]:
         options += [f"--{kind}", path]
         read.append(profile.read(path, kind=kind, unit="mm", side="right"))
     path = Path(shutil.copy(file, folder))
-    command = [sys.executable, "-m", "contact_fmu.profiles", path, *options]
+    command = [sys.executable, "-m", "contact_fmu.exchange", "profiles", path, *options]
     subprocess.run([*command, "--profile-unit", "mm", "--profile-side", "right"], check=True, cwd=ROOT)
     return path, read
 

@@ -1,9 +1,11 @@
 """The sources of a native FMU: C that any compiler makes the same FMU of, also for other processors."""
 
+import itertools
 import os
 import shutil
 import subprocess
 import sys
+from collections.abc import Sequence
 from pathlib import Path
 
 import fmpy
@@ -12,7 +14,7 @@ import pytest
 from script_host import Script
 
 from contact.compile import linking
-from contact.compile.linking import compiler, run
+from contact.compile.linking import run
 from contact_fmu.native import systems
 from contact_fmu.native.headers import HEADERS
 from reference.native import HOST, compile_once
@@ -20,6 +22,7 @@ from reference.native import HOST, compile_once
 STRICT = ("-std=c11", "-Wall", "-Wextra", "-Werror")
 #: Numbers are the same at every level. -O0 compiles kernels four times as fast as -O1.
 FLAGS = (*STRICT, "-O0", "-ffp-contract=off", "-fno-sanitize=undefined")
+LINUX, ARM = "x86_64-linux-gnu.2.17", "aarch64-linux-musl"
 VEHICLES = ("Vehicle", "OpenVehicle")
 NAMES = ("EllipticContact", "WheelRailContact", "WheelRailPair", "Wheelset", *VEHICLES)
 
@@ -42,13 +45,18 @@ def _listed(folder: Path) -> list[Path]:
     return [folder / "sources" / name for name in files.sourceFiles]
 
 
-def _objects(folder: Path, into: Path, target: str, *prefix: str) -> list[Path]:
-    """Compile the FMU's sources for a target of zig, those with functions of FMI with the option `prefix`."""
+def _objects(folder: Path, into: Path, target: str) -> list[Path]:
+    """Compile the FMU's sources for a target of zig, with its name before the functions of FMI. Return the objects."""
     objects, options = [], [*FLAGS, f"-I{folder / 'sources'}"]
+    into.mkdir()
     for path in _listed(folder):
         objects.append(into / f"{path.stem}.o")
-        chosen = prefix if not path.stem.endswith(("_kernels", "_data")) else ()
-        compile_once(_zig(target), (*options, *chosen, "-c", path), folder / "sources", objects[-1])
+        prefix = (
+            []
+            if path.stem.endswith(("_kernels", "_data"))
+            else [f"-DFMI{v}_FUNCTION_PREFIX={into.name}_" for v in (2, 3)]
+        )
+        compile_once(_zig(target), (*options, *prefix, "-c", path), folder / "sources", objects[-1])
     return objects
 
 
@@ -56,10 +64,10 @@ def _zig(target: str) -> list[str]:
     return [sys.executable, "-m", "ziglang", "cc", "-target", target]
 
 
-def _embedded(folder: Path, into: Path, target: str, *options: str) -> Path:
-    """Compile the FMU's sources and a host to one program for a target of zig."""
-    guid = fmpy.read_model_description(str(folder)).guid
-    parts = [f"-I{folder / 'sources'}", f'-DMODEL_GUID="{guid}"', *_objects(folder, into, target), HOST / "embedded.c"]
+def _embedded(objects: dict[str, list[Path]], into: Path, target: str, *options: str) -> Path:
+    """Link the objects of FMUs, by their names, and a host to one program for a target of zig."""
+    listed = "".join(f"DO({name})" for name in objects)
+    parts = [f"-I{HEADERS}", f"-DFMUS(DO)={listed}", *itertools.chain(*objects.values()), HOST / "embedded.c"]
     run(*_zig(target), *FLAGS, *options, *parts, "-o", into / "embedded", "-lm")
     return into / "embedded"
 
@@ -69,9 +77,12 @@ def _outputs(folder: Path) -> list[int]:
     return [v.valueReference for v in description.modelVariables if v.causality == "output" and v.type == "Real"]
 
 
-def _said(folder: Path, program: Path, *before: str) -> np.ndarray:
-    """Return all outputs after three steps."""
-    words = [*before, program, (folder / "resources").as_uri(), *_outputs(folder)]
+def _said(folders: Sequence[Path], program: Path, *before: str) -> np.ndarray:
+    """Return all outputs of the FMUs in a program after three steps."""
+    words: list[object] = [*before, program]
+    for folder in folders:
+        outputs, guid = _outputs(folder), fmpy.read_model_description(str(folder)).guid
+        words += [guid, (folder / "resources").as_uri(), len(outputs), *outputs]
     done = subprocess.run(list(map(str, words)), capture_output=True, text=True, timeout=600)
     assert done.returncode == 0, done.stderr
     return np.array([float.fromhex(line) for line in done.stdout.split()])
@@ -100,7 +111,8 @@ def test_the_sources_give_the_numbers_of_the_library(unzipped, tmp_path, name):
     folder = unzipped(name)
     expected = _of_library(folder)
     assert np.count_nonzero(expected) > 3
-    np.testing.assert_array_equal(_said(folder, _embedded(folder, tmp_path, "x86_64-linux-gnu.2.17")), expected)
+    objects = {name: _objects(folder, tmp_path / name, LINUX)}
+    np.testing.assert_array_equal(_said([folder], _embedded(objects, tmp_path, LINUX)), expected)
 
 
 @pytest.mark.parametrize("name", NAMES)
@@ -117,26 +129,16 @@ def test_on_64_bit_arm_the_sources_give_the_same_numbers(unzipped, tmp_path):
     if not qemu:
         pytest.skip("64-BIT ARM IS NOT TESTED: qemu is not installed (apt-get install qemu-user)")
     folder = unzipped("WheelRailContact")
-    found, expected = (
-        _said(folder, _embedded(folder, tmp_path, "aarch64-linux-musl", "-static"), qemu),
-        _of_library(folder),
-    )
+    objects = {"WheelRailContact": _objects(folder, tmp_path / "WheelRailContact", ARM)}
+    found, expected = _said([folder], _embedded(objects, tmp_path, ARM, "-static"), qemu), _of_library(folder)
     scale = np.maximum(np.abs(expected), 1e-9 * np.max(np.abs(expected)))
     assert np.max(np.abs(found - expected) / scale) < 1e-6
-
-
-def _linkable(folder: Path, name: str, into: Path) -> list[Path]:
-    """Compile the FMU's sources with its name before the functions of FMI. Return the objects."""
-    (into / name).mkdir()
-    return _objects(
-        folder, into / name, "x86_64-linux-gnu.2.17", *(f"-DFMI{v}_FUNCTION_PREFIX={name}_" for v in (2, 3))
-    )
 
 
 def test_two_fmus_link_into_one_program_and_give_their_numbers(unzipped, tmp_path):
     """All their names begin with the name of the FMU: none clashes, not even between two FMUs with the same kernels."""
     names = ("EllipticContact", "WheelRailContact")
-    objects = {name: _linkable(unzipped(name), name, tmp_path) for name in names}
+    objects = {name: _objects(unzipped(name), tmp_path / name, LINUX) for name in names}
     for name, of_fmu in objects.items():
         said = subprocess.run(
             ["nm", "-g", "--defined-only", *of_fmu], check=True, capture_output=True, text=True
@@ -144,20 +146,7 @@ def test_two_fmus_link_into_one_program_and_give_their_numbers(unzipped, tmp_pat
         seen = {line.split()[2] for line in said.splitlines() if len(line.split()) == 3}
         assert {f"{name}_fmi2DoStep", f"{name}_fmi3DoStep"} <= seen
         assert {symbol for symbol in seen if not symbol.startswith(f"{name}_")} == set()
-    program = tmp_path / "two"
-    chosen = [f"-D{number}={name}" for number, name in zip(("ONE", "TWO"), names, strict=True)]
-    run(
-        *(*compiler("linux64"), *FLAGS, *chosen, f"-I{HEADERS}", HOST / "two_embedded.c"),
-        *(*objects[names[0]], *objects[names[1]], "-o", program, "-lm"),
-    )
-    words: list[object] = [program]
-    for name in names:
-        folder, outputs = unzipped(name), _outputs(unzipped(name))
-        guid = fmpy.read_model_description(str(folder)).guid
-        words += [guid, (folder / "resources").as_uri(), len(outputs), *outputs]
-    done = subprocess.run(list(map(str, words)), capture_output=True, text=True, timeout=600)
-    assert done.returncode == 0, done.stderr
-    found = np.array([float.fromhex(line) for line in done.stdout.split()])
+    found = _said([unzipped(name) for name in names], _embedded(objects, tmp_path, LINUX))
     np.testing.assert_array_equal(found, np.concatenate([_of_library(unzipped(name)) for name in names]))
 
 

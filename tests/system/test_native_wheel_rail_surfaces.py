@@ -7,7 +7,6 @@ from pathlib import Path
 import fmpy
 import numpy as np
 import pytest
-import typer
 from fmpy.fmi1 import FMICallException
 from fmu_instance import DISCARD, Instance, answered_extremes, recovers
 from pair_case import METHODS, R0, expected, scale, solved
@@ -19,6 +18,7 @@ from contact.geometry.surfaces import Flat, Polygon, SurfacePair, WheelSurface
 from contact.kernels.entries.surfaces import HEAD
 from contact.pair import WheelRailPair
 from contact_fmu import profiles, resources, surfaces
+from contact_fmu.exchange import app
 from contact_fmu.tables.wheel_rail_surfaces import RAIL, WHEEL
 from examples.crossing.crossing import crossing
 
@@ -224,10 +224,8 @@ def test_extreme_inputs_give_finite_outputs_or_none(open_fmu):
 
 
 def command(path: Path, *words: object):
-    """Call what `python -m contact_fmu.surfaces` does."""
-    app = typer.Typer()
-    app.command()(surfaces.replace)
-    return CliRunner().invoke(app, [str(word) for word in (path, *words)])
+    """Call what `python -m contact_fmu.exchange surfaces` does."""
+    return CliRunner().invoke(app, [str(word) for word in ("surfaces", path, *words)])
 
 
 def test_the_command_replaces_surfaces_in_a_finished_fmu(native_surfaces, tmp_path):

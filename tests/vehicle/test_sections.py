@@ -10,7 +10,8 @@ import typer
 from contact.errors import ContactError
 from contact.geometry import profile
 from contact.geometry.surfaces import RailSurface
-from contact_fmu import catalogue, track
+from contact_fmu import catalogue
+from contact_fmu.exchange import exchange_track
 from contact_models.life import declared_set
 from contact_models.runs import report, result
 from contact_models.runs.run import VehicleRun
@@ -205,7 +206,7 @@ def test_wear_and_fmus_refuse_slices_and_flats(short, capsys, of, table):
     with pytest.raises(ContactError, match=rf"crossing.toml.{of}: the FMUs of a vehicle take no .*slices"):
         catalogue.vehicles(short)
     with pytest.raises(typer.Exit):
-        track.replace(short.parent / "none.fmu", file=short)
+        exchange_track(short.parent / "none.fmu", file=short)
     assert f"crossing.toml.{of}: the FMUs of a vehicle take no flats, polygons and slices" in capsys.readouterr().err
 
 

@@ -2,12 +2,9 @@
 
 from __future__ import annotations
 
-from enum import IntEnum, auto
-
 import numpy as np
 
 from contact import Status
-from contact.inputs.options import MOTION_INPUTS
 from contact.kernels.geometry.settle import DEEPEST
 from contact.kernels.records import LARGEST_ANGLE
 from contact_models.vehicle.assembly import assemble
@@ -18,46 +15,9 @@ from ..tables import open_vehicle, vehicle, wheel_rail_contact, wheel_rail_pair,
 from ..tables.open_vehicle import ASTRAY, ENDED, LOST
 from ..tables.vehicle import Starts
 from .component import Component, Resource, numbers
+from .failures import Failure, OpenFailure
 
 WARNINGS: dict[int, str] = {s: f"status {s.name}: {s.message}" for s in (Status.OUT_OF_RANGE, Status.NOT_CONVERGED)}
-#: Rows and columns of the derivatives that kernels know (`Component.derived`): those of `contact.kernels.jacobian`, and those
-#: of a pair, which are the members of `contact.kernels.rows.Moved`.
-CONTACT_DERIVED = (
-    ("force.x", "force.y", "moment.z", "force.n", "approach", "power.friction"),
-    (
-        *(f"creepage.{name}" for name in ("longitudinal", "lateral", "spin")),
-        *("load.normal_force", "load.approach", "friction.coefficient"),
-    ),
-)
-PAIR_DERIVED = (
-    (*(f"{kind}.{axis}" for kind in ("force", "moment") for axis in "xyz"), "wheelset.z"),
-    (*MOTION_INPUTS, "load.normal_force", "friction.coefficient"),
-)
-
-
-class Failure(IntEnum):
-    """Reasons to discard a step of a pair. Their numbers follow those of the statuses."""
-
-    NO_OVERLAP = max(Status) + 1
-    NOT_SETTLED = auto()
-    TOO_DEEP = auto()
-    ENDLESS = auto()
-    TURNED = auto()
-    GAUGE_POINT = auto()
-    STEEP = auto()
-    WHEEL = auto()
-    RAIL = auto()
-    ENDED = auto()  # of a vehicle
-    LOST = auto()
-
-
-class OpenFailure(IntEnum):
-    """Reasons to discard a step of a vehicle without contacts."""
-
-    ENDED = 1
-    LOST = 2
-
-
 _FAILURES: dict[int, str] = {
     Failure.NO_OVERLAP: "pose.y: the profiles of wheel and rail do not overlap, with irregularity and offset",
     Failure.NOT_SETTLED: "load.normal_force: no height was found at which the wheel carries this load on this rail",
@@ -82,8 +42,8 @@ def contact(points: int, elliptic: bool = False) -> Component:
         table=table,
         own=numbers(table, points=points),
         lazy=("creep_stiffness",),
-        derived=CONTACT_DERIVED[0],
-        derived_by=CONTACT_DERIVED[1],
+        derived=wheel_rail_contact.DERIVED,
+        derived_by=wheel_rail_contact.DERIVED_BY,
         warnings=WARNINGS,
     )
 
@@ -92,8 +52,8 @@ def pair(inclination: float, accumulation: bool = False) -> Component:
     """Return the FMU. `inclination` is the default of `rail.inclination` (tangent); `accumulation` shows the bins."""
     return Component(
         kind="pair",
-        derived=PAIR_DERIVED[0],
-        derived_by=PAIR_DERIVED[1],
+        derived=wheel_rail_pair.DERIVED,
+        derived_by=wheel_rail_pair.DERIVED_BY,
         table=wheel_rail_pair.table(inclination, accumulation),
         resources=_PROFILES,
         accumulated=wheel_rail_pair.ACCUMULATED,
@@ -109,8 +69,8 @@ def surface_pair() -> Component:
     wrong = "its slices are not in order, or its numbers do not belong together"
     return Component(
         kind="surfaces",
-        derived=PAIR_DERIVED[0],
-        derived_by=PAIR_DERIVED[1],
+        derived=wheel_rail_pair.DERIVED,
+        derived_by=wheel_rail_pair.DERIVED_BY,
         table=of.table(),
         resources=(
             Resource(of.WHEEL, surfaces.MAGIC["wheel"], 1, of.MOST_NUMBERS),

@@ -14,7 +14,7 @@ from contact_models.vehicle.kernels import motion
 from contact_models.vehicle.kernels.layout import Axis
 from ..tables.open_vehicle import table
 from .component import places
-from .components import OpenFailure
+from .failures import OpenFailure
 from .vehicle_parts import arrange, fill, lay_kept, track_after, write_motion
 
 _TABLE = table("manchester")  # its rows, of whatever size

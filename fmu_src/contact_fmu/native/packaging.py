@@ -80,7 +80,7 @@ def build(
     platforms : sequence of str
         Systems of the libraries; those of 64-bit ARM are compiled from the sources.
     """
-    component = model.component()
+    component = model.component
     table, kinds = component.table, ("ModelExchange", "CoSimulation")[not component.exchange :]
     interfaces, interfaces_3 = ({kind: each[kind] for kind in kinds} for each in (INTERFACES, INTERFACES_3))
     made = systems.folder(platforms, say)

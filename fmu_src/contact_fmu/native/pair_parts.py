@@ -33,7 +33,7 @@ from contact.kernels.records import (
 from contact.kernels.rows import Moved
 from ..tables.wheel_rail_pair import LOAD_KIND, PATCHES, SIDE
 from ..variables import Table
-from .components import Failure
+from .failures import Failure
 from .wires import case_reader, choose, constant, reader, references, size_of, writer
 
 _HEIGHTS = {"NormalForce": Height.LOAD, "Position": Height.GIVEN, "VerticalForce": Height.VERTICAL}
@@ -134,7 +134,7 @@ def reporter(table: Table) -> Callable[..., Any]:
 
 
 def deriver(table: Table) -> Callable[..., Any]:
-    """Return a compiled function that fills `derived` from the last solution of a pair (`components.PAIR_DERIVED`)."""
+    """Return a compiled function that fills `derived` from the last solution of a pair (`tables.wheel_rail_pair.DERIVED`)."""
     at = references(table)
 
     @arranging

@@ -36,7 +36,7 @@ from ..tables import wheel_rail_pair as pair_table
 from ..tables.vehicle import TOTALS, WHEEL, table
 from ..variables import Causality
 from .component import SIGNATURES, places
-from .components import Failure
+from .failures import Failure
 from .vehicle_parts import arrange, fill, lay_kept, track_after, write_motion
 from .wheel_rail_pair import layout_of
 from .wires import references

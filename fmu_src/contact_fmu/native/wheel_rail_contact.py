@@ -96,7 +96,7 @@ class Arrays(NamedTuple):
     damage_fields: Annotated[Cube, "len(DamageField), MAX_PATCHES * size.n_strips, size.n_elements"]
     damage: Annotated[Damages, "1"]
     count: Annotated[Numbers, "1"]  # number of strips
-    derived: Annotated[Matrix, "ROWS, COLUMNS + 1"]  # what the host sees of it: `components.CONTACT_DERIVED`
+    derived: Annotated[Matrix, "ROWS, COLUMNS + 1"]  # what the host sees of it: `tables.wheel_rail_contact.DERIVED`
     shown: Annotated[Matrix, "MAX_PATCHES * size.n_strips, size.n_elements"]  # one field as the host sees it
 
 

@@ -21,15 +21,15 @@ from contact.kernels.entries.pair import fill_profiles, lay_derivatives, lay_pai
 from contact.kernels.geometry.prepare import facing, rail_origin, turn
 from contact.kernels.records import LEDGER
 from contact.kernels.rows import N_PROFILE_ROWS, Bin
-from ..tables.wheel_rail_pair import ACCUMULATED, BINS, table
+from ..tables.wheel_rail_pair import ACCUMULATED, BINS, DERIVED, DERIVED_BY, table
 from ..variables import Table
 from . import pair_parts
-from .components import PAIR_DERIVED, Failure
+from .failures import Failure
 from .pair_parts import sizer
 from .wires import constant, reader, references
 
 #: Shape of the derivatives that the host sees.
-DERIVED = tuple(map(len, PAIR_DERIVED))
+SEEN = len(DERIVED), len(DERIVED_BY)
 
 
 @group
@@ -66,7 +66,7 @@ def _lay(work, end, start, counts, size, constants):
     """
     arrays, _, end = lay_pair(work, end, (start.wheel, start.turned), counts, size, start.kept, start.bins, constants)
     derivatives, end = lay_derivatives(work, end, size, arrays)
-    derived, total = block.matrix(work, end, *DERIVED)
+    derived, total = block.matrix(work, end, *SEEN)
     return arrays, derivatives, (derived, end), total
 
 

@@ -18,9 +18,9 @@ from contact.kernels.entries.surfaces import is_sound, lay_derivatives, lay_pair
 from ..tables.wheel_rail_surfaces import table
 from ..variables import Table
 from . import pair_parts
-from .components import Failure
+from .failures import Failure
 from .pair_parts import sizer
-from .wheel_rail_pair import DERIVED
+from .wheel_rail_pair import SEEN
 from .wires import references
 
 _STEP_ALONG, _STEP_ANGLE = 1e-6, 2e-6  # [m], [rad] for difference quotients
@@ -41,7 +41,7 @@ def _lay(work, given, size):
     kept, end = block.vector(work, 0, memory.pair_memory_size(memory.memory_size(size)))
     arrays, _, end = lay_pair(work, end, wheel, n_wheel, rail, n_rail, size, kept, given.data)
     derivatives, end = lay_derivatives(work, end, size, arrays)
-    derived, total = block.matrix(work, end, *DERIVED)
+    derived, total = block.matrix(work, end, *SEEN)
     return arrays, derivatives, (derived, end), total
 
 

@@ -40,8 +40,8 @@ def _files(model: Model, platforms: Collection[str]) -> Iterator[tuple[str, byte
     name = model.table.name
     guid, xml = model_description(model.table, INTERFACES)
     yield "modelDescription.xml", xml.encode()
-    yield f"resources/{DECLARED}", declared(model.declared, model.all_options, guid).encode()
-    yield f"resources/{NAME}", content(model.component(), guid)
+    yield f"resources/{DECLARED}", declared(model.declared, model.options, guid).encode()
+    yield f"resources/{NAME}", content(model.component, guid)
     for resource, its in model.resources.items():
         yield f"resources/{resource}", its
     for system, library in entry.libraries().items():

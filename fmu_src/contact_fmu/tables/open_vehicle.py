@@ -24,7 +24,7 @@ ANSWER = tuple(f"{kind}.{axis}" for kind in ("force", "moment") for axis in "xyz
 #: Unit of an output → usual size.
 _NOMINAL = {"m": 1e-3, "rad": 1e-3, "m/s": 1.0, "rad/s": 1.0, "1": 0.1}
 #: Why a step is discarded.
-ENDED = "the vehicle is not on the track: it ends here (contact_fmu.track), or initial.distance is not on it"
+ENDED = "the vehicle is not on the track: it ends here (contact_fmu.exchange), or initial.distance is not on it"
 ASTRAY = f"a body is more than {FARTHEST:g} m or rad from its place, or has no finite motion"
 LOST = f"{ASTRAY}: the step is too long, or forces do not belong to the motion"
 

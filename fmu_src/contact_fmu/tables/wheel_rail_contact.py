@@ -44,6 +44,12 @@ PROBLEM = (
     *("load.normal_force",),
 )
 REACTION = ("force.x", "force.y", "moment.z", "approach")
+#: Rows and columns of the derivatives that kernels know (`contact.kernels.jacobian`).
+DERIVED = ("force.x", "force.y", "moment.z", "force.n", "approach", "power.friction")
+DERIVED_BY = (
+    *(f"creepage.{name}" for name in ("longitudinal", "lateral", "spin")),
+    *("load.normal_force", "load.approach", "friction.coefficient"),
+)
 
 
 #: Rows that `EllipticContact` does not show.

@@ -54,6 +54,9 @@ BINS = 100  # over each profile
 BODIES = ("wheel", "rail")
 #: Rows that accumulate: first of the wheel, then of the rail, in the order of `contact.kernels.damage.deposit`.
 ACCUMULATED = tuple(f"accumulated.{body}.{name}" for body in BODIES for name in SUMS | MAXIMA)
+#: Rows and columns of the derivatives that kernels know: members of `contact.kernels.rows.Moved`.
+DERIVED = (*(f"{kind}.{axis}" for kind in ("force", "moment") for axis in "xyz"), "wheelset.z")
+DERIVED_BY = (*MOTION_INPUTS, "load.normal_force", "friction.coefficient")
 #: File names of the profiles in resources/ (`contact_fmu.profiles`). They show the right side and serve both sides.
 WHEEL, RAIL = "wheel.profile", "rail.profile"
 RESOURCES = (WHEEL, RAIL)

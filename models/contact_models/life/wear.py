@@ -30,7 +30,7 @@ COLUMNS = {
     "mass": ("kg", "mass worn off in the step, mean of all wheels"),
     "energy": ("J", "frictional energy in the step, mean of all wheels"),
     "cut": ("m", "taken off the radius of all wheels at the end of the step to restore their profile"),
-    **{name: (unit, f"{what}: worst of the runs, or sum") for name, (unit, what) in TRUST.items()},
+    **{name: ("1", f"{measure.meaning}: worst of the runs, or sum") for name, measure in TRUST.items()},
 }
 #: Amplitudes of the nonlinearity parameter [m].
 _NONLINEARITY = (2e-3, 4e-3)

@@ -71,6 +71,8 @@ class VehicleRun:
         Number of steps so far.
     step : float
         [s].
+    energy : float
+        Frictional energy of all wheels where damage was counted [J].
 
     Raises
     ------
@@ -118,7 +120,7 @@ class VehicleRun:
                 f"times in a step; {_LARGEST_AMPLIFICATION:g} times are allowed"
             )
         doubt_duration(scenario.name, track, (self.distance, d.length), self.step, 2 * len(vehicle.wheelsets))
-        self._counted, self._distance = 0.0, 0.0
+        self.energy, self._distance = 0.0, 0.0
         circles = [curve.start + curve.transition for curve in d.track.curves]
         self._piece = min(d.length, max(d.recording.settling, min(circles, default=0.0)) + _PIECE)
         self._at_piece = np.zeros(2)  # energy and worn volume over the distance that is counted there [J/m], [m³/m]
@@ -179,7 +181,7 @@ class VehicleRun:
         if counts:
             self._distance += many * h * speed
             on_profiles = ~simulation.on_surfaces
-            self._counted += h * speed * float(simulation.state.sums[on_profiles, Sum.DISSIPATION].sum())
+            self.energy += h * speed * float(simulation.state.sums[on_profiles, Sum.DISSIPATION].sum())
         self._sample(many * h)
         if self._has_piece and not had_piece and self._distance > 0.0:
             volume = sum(histogram.volume for histogram in self.damage().values())
@@ -221,21 +223,8 @@ class VehicleRun:
     def balance(self) -> dict[str, float]:
         """Energies of the whole run [J], with the names of `BALANCE`."""
         books = self.simulation.state.books
-        return {
-            "drive": float(books[Book.DRIVE]),
-            "weight": float(books[Book.WEIGHT]),
-            "torque": float(books[Book.TORQUE]),
-            "damper": float(books[Book.DAMPER]),
-            "dissipated": float(books[Book.DISSIPATED]),
-            "stored": float(books[Book.STORED] - books[Book.STORED_FIRST]),
-            "residual": float(books[Book.RESIDUAL]),
-            "counted": self._counted,
-        }
-
-    @property
-    def energy(self) -> float:
-        """Frictional energy of all wheels where damage was counted [J]."""
-        return self._counted
+        of_books = {name: float(books[Book[name.upper()]]) for name in BALANCE if name != "counted"}
+        return of_books | {"stored": of_books["stored"] - float(books[Book.STORED_FIRST]), "counted": self.energy}
 
     @property
     def trust(self) -> Trust:
@@ -326,7 +315,7 @@ class VehicleRun:
         return {
             **{name: array.copy() for name, array in self.simulation.kept.items()},
             "before": self._before.copy(),
-            "progress": np.array([self._counted, self._distance, *self._at_piece]),
+            "progress": np.array([self.energy, self._distance, *self._at_piece]),
             "rows": np.array(self._rows).reshape(-1, len(self.columns)),
         }
 
@@ -335,6 +324,6 @@ class VehicleRun:
         for name, array in self.simulation.kept.items():
             array[:] = saved[name]
         self._before[:] = saved["before"]
-        self._counted, self._distance, *piece = saved["progress"].tolist()
+        self.energy, self._distance, *piece = saved["progress"].tolist()
         self._at_piece[:] = piece
         self._rows = list(saved["rows"])

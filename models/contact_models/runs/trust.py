@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
+from typing import NamedTuple
 
 from contact.errors import ContactError
 from contact.study.table import number
@@ -19,18 +21,33 @@ IMPACT = 2.0
 LARGEST_CREEPAGE = 0.1
 #: A wheel that loses more at its deepest place, over the distance, wears as none in service does: 1 mm in 100 km.
 FASTEST_WEAR = 1e-8
-#: Member → unit and meaning.
+
+
+def _largest(values: Iterable[float]) -> float:
+    return max(values, key=abs)
+
+
+class Measure(NamedTuple):
+    """A measure of trust, a pure number: its meaning, and what it is of several runs together."""
+
+    meaning: str
+    joined: Callable[[Iterable[float]], float] = max
+
+
+#: The members of `Trust` that are numbers.
 TRUST = {
-    "residual": ("1", "energy that the integration has lost or gained, over the energy dissipated in the contacts"),
-    "impacts": ("1", "rises of a wheel's normal force above twice its static value"),
-    "lifted": ("1", "times that a wheel lost contact with its rail"),
-    "untrusted": ("1", "contacts without a trustworthy solution"),
-    "creepage": ("1", "greatest longitudinal creepage of a wheel, of either sign, at the samples"),
-    "speed_ratio": ("1", "greatest speed over the linear critical speed on straight track"),
-    "unfinished": ("1", "curves of the track that the run does not reach the end of"),
-    "deepest_rate": ("1", "greatest depth that a wheel loses per distance, before smoothing"),
-    "seizure": ("1", "share of the samples at which a wheel's pressure is in Archard's seizure; 0 with other laws"),
-    "untrusted_share": ("1", "share of the contacts without a trustworthy solution"),
+    "residual": Measure(
+        "energy that the integration has lost or gained, over the energy dissipated in the contacts", _largest
+    ),
+    "impacts": Measure("rises of a wheel's normal force above twice its static value", sum),
+    "lifted": Measure("times that a wheel lost contact with its rail", sum),
+    "untrusted": Measure("contacts without a trustworthy solution", sum),
+    "creepage": Measure("greatest longitudinal creepage of a wheel, of either sign, at the samples"),
+    "speed_ratio": Measure("greatest speed over the linear critical speed on straight track"),
+    "unfinished": Measure("curves of the track that the run does not reach the end of"),
+    "deepest_rate": Measure("greatest depth that a wheel loses per distance, before smoothing"),
+    "seizure": Measure("share of the samples at which a wheel's pressure is in Archard's seizure; 0 with other laws"),
+    "untrusted_share": Measure("share of the contacts without a trustworthy solution"),
 }
 
 
@@ -130,7 +147,7 @@ class Trust:
         values = {name: number(value) for name, value in self.as_dict().items()}
         if self.speed_ratio == 0.0:
             values["speed_ratio"] = "none up to 150 m/s; see the conicity at 3 mm too"
-        return [(TRUST[name][1], value) for name, value in values.items()]
+        return [(TRUST[name].meaning, value) for name, value in values.items()]
 
     def as_dict(self) -> dict[str, float]:
         """Return the members by name."""
@@ -174,16 +191,5 @@ class StepError:
 
 def worst(runs: list[Trust]) -> Trust:
     """Return the measures of several runs together: the sums of what happened, and the largest of the others."""
-    return Trust(
-        residual=max((run.residual for run in runs), key=abs),
-        impacts=sum(run.impacts for run in runs),
-        lifted=sum(run.lifted for run in runs),
-        untrusted=sum(run.untrusted for run in runs),
-        creepage=max(run.creepage for run in runs),
-        speed_ratio=max(run.speed_ratio for run in runs),
-        unfinished=max(run.unfinished for run in runs),
-        deepest_rate=max(run.deepest_rate for run in runs),
-        seizure=max(run.seizure for run in runs),
-        untrusted_share=max(run.untrusted_share for run in runs),
-        wear_law=runs[0].wear_law,
-    )
+    joined = {name: measure.joined(getattr(run, name) for run in runs) for name, measure in TRUST.items()}
+    return Trust(**joined, wear_law=runs[0].wear_law)

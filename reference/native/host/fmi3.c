@@ -99,7 +99,7 @@ static void threads(void)
     for (int i = 0; i < N_INSTANCES; i++) FreeInstance(crowd[i]);
 }
 
-/* ---------------------------------------------------------------- random calls, derivatives */
+/* ---------------------------------------------------------------- random calls */
 
 static fmi3Instance with_few_strips(fmi3Instance c)
 {
@@ -151,48 +151,6 @@ static void random_calls(int n)
     FreeInstance(c);
 }
 
-/* v J u by directional derivatives and by adjoint ones, for inputs that the model derives by and for others, and columns that
- * a host asks one by one. */
-static void adjoint(void)
-{
-    enum { UNKNOWNS = 6, KNOWNS = 6, NUMBERS = KNOWNS - 1 + SAMPLES };
-    static const fmi3ValueReference unknowns[UNKNOWNS] = {V_force_x, V_force_y, V_moment_z, V_approach, V_power_friction, V_pressure_max};
-    static const fmi3ValueReference knowns[KNOWNS] = {V_creepage_longitudinal, V_creepage_lateral, V_creepage_spin,
-                                                      V_load_normal_force, V_friction_coefficient, V_geometry_g};
-    static const double v[UNKNOWNS] = {1.0, -2.0, 300.0, 1e9, 0.5, 1e-5};
-    double u[NUMBERS], row[NUMBERS], product[UNKNOWNS], column[UNKNOWNS], one_way = 0.0, other_way = 0.0, size_of = 0.0, by_columns = 0.0;
-    fmi3Instance c = make(ME, logger);
-    EnterInitializationMode(c, fmi3False, 0.0, 0.0, fmi3False, 0.0);
-    set(c, V_creepage_longitudinal, 1e-3), set(c, V_creepage_lateral, -5e-4), set(c, V_creepage_spin, 0.2);
-    ExitInitializationMode(c);
-    for (int i = 0; i < NUMBERS; i++) u[i] = 1e-7 * (1 + i % 3);
-    u[2] = 1e-4, u[3] = 10.0, u[4] = 1e-4;
-    for (int i = KNOWNS - 1; i < NUMBERS; i++) u[i] *= 1e-3;
-    check(GetDirectionalDerivative(c, unknowns, UNKNOWNS, knowns, KNOWNS, u, NUMBERS, product, UNKNOWNS) == fmi3OK, "directional", last_message);
-    check(GetAdjointDerivative(c, unknowns, UNKNOWNS, knowns, KNOWNS, v, UNKNOWNS, row, NUMBERS) == fmi3OK, "adjoint", last_message);
-    for (int i = 0; i < UNKNOWNS; i++) one_way += v[i] * product[i], size_of += fabs(v[i] * product[i]);
-    for (int i = 0; i < NUMBERS; i++) other_way += row[i] * u[i];
-    check(fabs(one_way - other_way) < 2e-4 * size_of, "v J u", "two ways, all inputs");
-    GetDirectionalDerivative(c, unknowns, UNKNOWNS - 1, knowns, KNOWNS - 1, u, KNOWNS - 1, product, UNKNOWNS - 1);
-    GetAdjointDerivative(c, unknowns, UNKNOWNS - 1, knowns, KNOWNS - 1, v, UNKNOWNS - 1, row, KNOWNS - 1);
-    one_way = other_way = size_of = 0.0;
-    for (int i = 0; i < UNKNOWNS - 1; i++) one_way += v[i] * product[i], size_of += fabs(v[i] * product[i]);
-    for (int j = 0; j < KNOWNS - 1; j++) {
-        other_way += row[j] * u[j];
-        GetDirectionalDerivative(c, unknowns, UNKNOWNS - 1, &knowns[j], 1, &one, 1, column, UNKNOWNS - 1);
-        for (int i = 0; i < UNKNOWNS - 1; i++) by_columns += v[i] * column[i] * u[j];
-    }
-    check(fabs(one_way - other_way) < 1e-13 * size_of && size_of > 1.0, "v J u", "two ways, inputs of the matrix");
-    check(fabs(one_way - by_columns) < 1e-13 * size_of, "v J u", "column by column");
-    set(c, V_creepage_longitudinal, 2e-3);
-    GetDirectionalDerivative(c, unknowns, UNKNOWNS - 1, knowns, KNOWNS - 1, u, KNOWNS - 1, column, UNKNOWNS - 1);
-    check(column[0] != product[0], "derivatives", "of a new state");
-    set(c, V_creepage_longitudinal, 1e-3);
-    GetDirectionalDerivative(c, unknowns, UNKNOWNS - 1, knowns, KNOWNS - 1, u, KNOWNS - 1, column, UNKNOWNS - 1);
-    check(!memcmp(column, product, sizeof(double) * (UNKNOWNS - 1)), "derivatives", "of the state before");
-    FreeInstance(c);
-}
-
 int main(int n_arguments, char **arguments)
 {
     void *library = n_arguments > 4 ? open_library(arguments[1]) : NULL;
@@ -205,7 +163,6 @@ int main(int n_arguments, char **arguments)
     FUNCTIONS(FIND)
     if (!strcmp(command, "instantiate")) instantiate();
     else if (!strcmp(command, "every_call")) every_call();
-    else if (!strcmp(command, "adjoint")) adjoint();
     else if (!strcmp(command, "threads")) threads();
     else if (!strcmp(command, "random_calls")) random_calls(argument);
     else return printf("%s is not a command\n", command), 2;
