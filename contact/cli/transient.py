@@ -42,6 +42,7 @@ def transient(
         )
     N = load_or_standard(load)
     patch = Transient(Separation.hertzian(*curvatures), load=N, friction=friction, spacing=spacing)
+    require_number("step", length, 0.0, patch.longest_step)
     solutions = [] if shift is None else [(0.0, patch.shift(*shift))]
     motion = Creepage() if creepage is None else Creepage(*creepage)
     for _ in range(round(count)):

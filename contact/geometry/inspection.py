@@ -41,6 +41,7 @@ _GAP, _OVER_SPACING = 2.5e-3, 8.0  # least length of a gap [m], and over the med
 ROUGH = 3e-3  # error of tangents [rad] above which noise is reported
 TANGENT_OF_NOISE = 1.2  # error of a spline's tangents over noise/spacing (docs/use/profiles.md, measured)
 HEIGHT, SIDE = 1e-3, 6e-3  # offsets that are reported [m]
+_LIP, _GROOVE = 2e-3, 15e-3  # least width of the lip beside a groove, and of a groove [m]
 _DEEPER = 4e-3  # by how much the field side of a rail may be deeper than its gauge side [m]
 #: Slope of a tread from 15 mm inside the tape circle to 20 mm outside, and of a rail's top within 20 mm of its middle: the
 #: usual one, and by how much it may differ [rad]. Standard wheels have -1.4° to -2.9°, rails up to 1:20 inclined -2.5° to 2.3°.
@@ -223,6 +224,11 @@ def turned(points: Points, kind: Kind) -> float:
     else:
         gauge = np.flatnonzero((z > z.min() + GAUGE_DEPTH) & (np.arange(z.size) < np.argmin(z)))
         middle = y[gauge[-1]] + CROWN_FROM_GAUGE if gauge.size else 0.5 * (y.min() + y.max())
+        before, behind = (
+            np.flatnonzero(z[part] > z.min() + HEAD_DROP) for part in np.split(np.arange(z.size), [np.argmin(z)])
+        )
+        if before.size and behind.size:
+            middle = 0.5 * (y[before[-1]] + y[np.argmin(z) + behind[0]])
         low, high = (middle + end for end in TOP)
     inside = (y > low) & (y < high)
     if np.count_nonzero(inside) < 5 or np.ptp(y[inside]) < 0.8 * (high - low):
@@ -284,11 +290,24 @@ def misplaced(points: Points, kind: Kind, unit: float = 0.0) -> tuple[str, str, 
     if shape is not None and not down:
         seen = "its flange points upwards" if kind == "wheel" else "its crown lies lowest"
         return f"the {kind} is upside down, {seen}", "its z must point the other way", "z points down: give -z"
+    if kind == "rail" and (groove := _groove_beyond(y, z)):
+        seen = f"the groove lies on the field side, around y = {groove:g} m"
+        return seen, "set side to the other side", "y points to the field side: give -y[::-1] and z[::-1]"
     deepest = np.argmax(z)
     if kind == "wheel" and has_flange(points) and y[deepest] > y.mean():
         seen = f"the flange lies on the field side, at y = {y[deepest]:g} m"
         return seen, "set side to the other side", "y points to the field side: give -y[::-1] and z[::-1]"
     return None
+
+
+def _groove_beyond(y: Points, z: Points) -> float:
+    """Return where a groove lies [m] whose lip, narrower than the head, is on the field side; 0 without one."""
+    high = np.flatnonzero(z < z.min() + GAUGE_DEPTH)
+    parts = [y[part] for part in np.split(high, np.flatnonzero(np.diff(high) > 1) + 1)]
+    wide = [part for part in parts if np.ptp(part) > _LIP]
+    if len(wide) != 2 or wide[1][0] - wide[0][-1] < _GROOVE or np.ptp(wide[0]) < np.ptp(wide[1]):
+        return 0.0
+    return float(0.5 * (wide[0][-1] + wide[1][0]))
 
 
 def tall(points: Points, kind: Kind) -> tuple[str, str, str] | None:
@@ -301,7 +320,10 @@ def tall(points: Points, kind: Kind) -> tuple[str, str, str] | None:
     if width <= WIDEST < height:
         cure = "are its columns y and z in one unit?"
         return seen, cure, cure
-    if NARROWEST <= height <= WIDEST and height > TALLER * width and (kind == "wheel" or width < NARROWEST):
+    across, along = np.abs(points[-1] - points[0])  # a head on its side ends where it begins, one below the other
+    lies = height > width and along > 0.8 * height and across < 0.7 * width
+    narrow = height > TALLER * width and (kind == "wheel" or width < NARROWEST)
+    if NARROWEST <= height <= WIDEST and (narrow or (kind == "rail" and lies)):
         cure = "are its columns y and z swapped, or is it turned by 90°?"
         return seen, cure, cure
     return None

@@ -207,8 +207,8 @@ class Transient(OwnsArrays):
         creepage : Creepage
             Wheel minus rail over V, constant in the step.
         distance : float
-            Rolled in this step [m], positive. The error of a step is of first order in the distance; one to two elements are
-            usual. Much shorter steps bring wiggles of the traction from element to element.
+            Rolled in this step [m], positive, not longer than the grid. The error of a step is of first order in the distance;
+            one to two elements are usual. Much shorter steps bring wiggles of the traction from element to element.
         load, approach, force, gap :
             As for `shift`; with a force, the creepage in its direction is found.
         sliding : bool
@@ -219,7 +219,7 @@ class Transient(OwnsArrays):
         GridSolution
             `sx`, `sy` are the slip velocities over V, averaged over the step.
         """
-        step = require_number("distance", distance, 0.0, open_minimum=True)
+        step = require_number("distance", distance, 0.0, self.longest_step, open_minimum=True)
         within(self.take)(load, approach, gap)
         solution = self._step(as_creepage(creepage), step, self._coefficient(creepage), force, sliding)
         self.distance += step
@@ -297,6 +297,11 @@ class Transient(OwnsArrays):
     def grid(self) -> tuple[Array, Array]:
         """Centres x, y of all elements [m]."""
         return self._grid.x, self._grid.y
+
+    @property
+    def longest_step(self) -> float:
+        """Largest distance of a step [m]: the length of the grid."""
+        return float(self._grid.x.size * (self._grid.x[1] - self._grid.x[0]))
 
     @property
     def traction(self) -> Array:

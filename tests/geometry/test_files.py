@@ -5,7 +5,7 @@ import pytest
 
 from contact import ContactError
 from contact.errors import ProfileWarning
-from contact.geometry import profile
+from contact.geometry import inspection, profile
 from tests.geometry.written import COLUMNS, RAIL, WHEEL, same, table, wheel_file
 
 SIMPACK = """! a comment
@@ -228,6 +228,20 @@ def test_a_grooved_rail_is_no_wheel(tmp_path, depth, lip, below, up, side):
     read = profile.read(path, kind="rail", unit="m", side=side)
     np.testing.assert_allclose(read.y, y, atol=1e-6)
     np.testing.assert_allclose(read.z, z, atol=1e-6)
+    assert inspection.turned(np.column_stack((y, z)), "rail") == 0.0
+    with pytest.raises(ContactError, match=r"the groove lies on the field side, .*set side to the other side"):
+        profile.read(path, kind="rail", unit="m", side="left" if side == "right" else "right")
+
+
+@pytest.mark.parametrize("depth", [0.02, 0.033, 0.037])
+@pytest.mark.parametrize("up", [1.0, -1.0])
+def test_a_head_on_its_side_is_refused(tmp_path, depth, up):
+    path = tmp_path / "rail.txt"
+    head = profile.rail_60e1(inclination=0.0)
+    y, z = head.y[head.z < depth], head.z[head.z < depth]
+    path.write_text(table(up * z, y))
+    with pytest.raises(ContactError, match="are its columns y and z swapped"):
+        profile.read(path, kind="rail", unit="m", side="right")
 
 
 def test_shapes_that_could_be_either_are_taken_as_given(tmp_path):

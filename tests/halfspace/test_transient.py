@@ -86,6 +86,14 @@ def test_a_shift_back_dissipates_and_leaves_traction():
     assert ux.shape == uy.shape == (32, 32)
 
 
+@pytest.mark.parametrize("distance", [0.011, 1.0, 1e9])
+def test_a_step_longer_than_the_grid_is_refused(distance):
+    contact_patch = circle(n=8)
+    with pytest.raises(contact.ContactError, match=r"distance = .* is outside the allowed range \]0, 0\.0105\]"):
+        contact_patch.roll(contact.Creepage(1e-3), distance=distance)
+    assert contact_patch.roll(contact.Creepage(1e-3), distance=0.0105).N > 0.0
+
+
 def test_traction_leaves_with_the_load():
     """An element without pressure has no traction; full unloading forgets it."""
     patch = circle()

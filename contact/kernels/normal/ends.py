@@ -162,10 +162,12 @@ def end_move(vectors, n, first, step, cosines, frozen, calm):
     wanted, share = _wanted(p0, p1, p2, vectors[Vector.P, first + 3 * step] if n > 3 else math.inf)
     if n >= 2 * _COARSEST:
         wanted = _by_groups(vectors, n, first, step, cosines, wanted)
-    if frozen and spur and not punch:
-        wanted = max(wanted, 1.0)
+    alone = frozen and spur and not punch
+    move = END_STEP * (max(wanted, 1.0) if alone else wanted) * (1.0 + cosines[1])
+    if alone and is_far(n, cosines, 0.5 * move):
+        move = share = 0.0  # no more than a direction: the gap outside tells whether there is contact
     vectors[Vector.END, first] = share
-    return END_STEP * wanted * (1.0 + cosines[1])
+    return move
 
 
 @entry

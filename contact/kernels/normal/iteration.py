@@ -50,7 +50,7 @@ DAMPED = 24
 #: Iteration from which on the ends keep between the places from which they moved outwards and inwards.
 BRACKET = 12
 #: Iteration from which on ends of skewed patches that are far from their place of rest are sought by the gap, and how often.
-SEEK, EVERY = 11, 4
+SEEK, EVERY = 5, 3
 #: How often panels are parted from one start: parts that grow together again would be parted for ever.
 MOST_PARTED = 3
 
