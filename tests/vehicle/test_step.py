@@ -28,11 +28,10 @@ def damage(step: float | None, pace: int, **changes) -> tuple[float, float]:
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize(("speed", "of_energy", "of_volume"), [(12.0, 6e-3, 0.024), (20.0, 2e-3, 0.01)])
-def test_dissipation_and_wear_at_the_default_step_are_near_those_of_a_fifth_of_it(speed, of_energy, of_volume):
-    """With every step counted there. Now .0048 and .0195 at 12 m/s, .0006 and .0068 at 20. Creepages half a step late lost .015
-    of both on this track, and .024 and .06 on a longer one."""
-    energy, volume = damage(None, 4, speed=speed)
-    exact = damage(VehicleRun(scenario(track=ROUGH, speed=speed)).step / 5.0, 1, speed=speed)
-    assert energy == pytest.approx(exact[0], rel=of_energy)
-    assert volume == pytest.approx(exact[1], rel=of_volume)
+def test_dissipation_and_wear_at_the_default_step_are_near_those_of_a_fifth_of_it():
+    """With every step counted there. Now they are .0048 and .0195 off at 12 m/s (.0006 and .0068 at 20). Creepages half a step
+    late lost .015 of both on this track, and .024 and .06 on a longer one."""
+    energy, volume = damage(None, 4, speed=12.0)
+    exact = damage(VehicleRun(scenario(track=ROUGH, speed=12.0)).step / 5.0, 1, speed=12.0)
+    assert energy == pytest.approx(exact[0], rel=6e-3)
+    assert volume == pytest.approx(exact[1], rel=0.024)
