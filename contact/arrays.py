@@ -24,9 +24,14 @@ def brief(record: Any) -> str:
 
 
 def _range(value: Any) -> str:
-    if not isinstance(value, np.ndarray) or value.size <= _FEW or value.dtype.kind not in "iufb":
-        return repr(value.tolist() if isinstance(value, np.ndarray) else value)
-    return f"<{' × '.join(map(str, value.shape))}: {value.min():g} … {value.max():g}>"
+    if isinstance(value, float) or (isinstance(value, np.ndarray) and value.ndim == 0):
+        return f"{float(value):.6g}"
+    if not isinstance(value, np.ndarray) or value.dtype.kind not in "iufb":
+        return repr(value)
+    if value.size <= _FEW and value.ndim == 1:
+        return f"[{', '.join(map('{:.6g}'.format, value))}]"
+    extent = f"{float(value.min()):g} … {float(value.max()):g}" if value.size else "none"
+    return f"<{' × '.join(map(str, value.shape))}: {extent}>"
 
 
 def as_array(name: str, values: object) -> Array:

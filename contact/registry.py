@@ -117,6 +117,12 @@ class ReadOnly(Mapping[str, T]):
     def __repr__(self) -> str:
         return repr(self._items)
 
+    def __or__(self, other: Mapping[str, T]) -> dict[str, T]:
+        return {**self, **other}
+
+    def __ror__(self, other: Mapping[str, T]) -> dict[str, T]:
+        return {**other, **self}
+
 
 class Methods(NamedTuple):
     """The registered normal and tangential methods by name, in order of registration.

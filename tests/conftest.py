@@ -12,7 +12,19 @@ import pytest
 from hypothesis import settings
 
 import contact
+from contact.study import page
 from tests.builds import BUILDS, ROOT
+
+_approx = pytest.approx
+
+
+def approx(expected, rel=None, abs=None, nan_ok=False):
+    """Compare to a relative tolerance, where one is given, and to no other: pytest adds 1e-12, with which volumes of wear in
+    cubic metres, or their depth in a metre, would be equal to anything."""
+    return _approx(expected, rel, 0.0 if abs is None and rel is not None else abs, nan_ok)
+
+
+pytest.approx = approx
 
 _IS_WORKER = "PYTEST_XDIST_WORKER" in os.environ
 # Helpers whose assertions get the detailed messages of tests.
@@ -34,7 +46,21 @@ def ellipse() -> contact.Separation:
 @pytest.fixture
 def undrawn(monkeypatch) -> None:
     """Leave pictures out of pages, for tests of their text: each is drawn twice, .7 s."""
-    monkeypatch.setattr("contact.study.page._data", lambda figure: "")
+    monkeypatch.setattr(page, "_data", lambda figure: "")
+
+
+@pytest.fixture
+def drawn_once(monkeypatch) -> None:
+    """Put the first picture of a page in place of all others, for tests of what is around them."""
+    draw = page._data
+    drawn: list[str] = []
+
+    def data(figure) -> str:
+        if not drawn:
+            drawn.append(draw(figure))
+        return drawn[0]
+
+    monkeypatch.setattr(page, "_data", data)
 
 
 @pytest.fixture(scope="session")

@@ -25,6 +25,8 @@ from contact.study.files import csv_of, require_writable
 #: Exit status where a difference is above the tolerance.
 DIFFERS = 1
 _SHOWN = 20
+#: Smaller numbers [N, m] are shown as 0.
+_NOISE = 1e-9
 #: Status of results that are not to be trusted.
 _DOUBTFUL = ("not converged", "unreachable", "out of range", "doubtful gap")
 _ENDINGS = (".csv", ".nc", ".mat")
@@ -176,10 +178,12 @@ def _show(rows: Sequence[dict[str, Any]], signs: str, console: Console) -> None:
     patches = [row for row in rows if row["patch"] or row["refused"] or row["status"] in ("no contact", "checked")]
     cells = [
         [str(row["case"]), str(row["patch"]), row["refused"] or row["status"]]
-        + ["" if row[name] is None else f"{row[name]:.5g}" for name in names]
+        + ["" if row[name] is None else f"{row[name]:.5g}" if abs(row[name]) > _NOISE else "0" for name in names]
         for row in patches[:_SHOWN]
     ]
-    show_table("", [(name, "") for name in ("case", "patch", "status", *names)], cells, console)
+    parts = [name.rstrip("]").partition(" [") for name in ("case", "patch", "status", *names)]
+    headings = [(name, unit) for name, _, unit in parts]
+    show_table("", headings, cells, console)
     if len(patches) > _SHOWN:
         console.print(f"… and {len(patches) - _SHOWN} more rows; --out writes all")
 

@@ -38,7 +38,11 @@ def show_table(
         heading = f"{escape(name)}\n[dim]{escape(unit)}[/dim]" if unit else escape(name)
         right = k > 0 and any(row[k][:1] in _OF_NUMBERS for row in rows if row[k])
         shown.add_column(
-            heading, justify="right" if right else "left", vertical="bottom" if right else "top", no_wrap=not k
+            heading,
+            justify="right" if right else "left",
+            vertical="bottom" if right else "top",
+            no_wrap=not k,
+            overflow="fold",  # a number loses no digit
         )
     for name, *cells in rows:
         shown.add_row(escape(name.replace(" + ", "\n+ ")), *map(escape, cells))

@@ -21,10 +21,8 @@ FLANGE_BACK = 0.070  # distance of the back of the flange from the tape circle [
 TIP_FROM_TAPE = 0.055  # distance of the flange's tip from the tape circle [m] (EN 13715)
 FLANGE = 0.015  # a flange's tip lies at least this far below the median of a wheel's points [m]
 HIGHEST = 0.042  # a worn flange is lower [m]
-HEAD, FLAT = (
-    0.06,
-    3e-3,
-)  # the middle of a rail's head, so wide, falls at least so far to its sides (EN 13674-1: 3.8 mm) [m]
+#: The middle of a rail's head, so wide, falls at least so far to its sides (EN 13674-1: 3.8 mm) [m].
+HEAD, FLAT = 0.06, 3e-3
 _BEHIND = 4e-3  # a wheel that goes on so far behind the usual place of the tip has a flange [m]
 CROWN_FROM_GAUGE = 0.036  # half the width of a rail's head [m], from its gauge face
 
@@ -47,10 +45,8 @@ _DEEPER = 4e-3  # by how much the field side of a rail may be deeper than its ga
 #: usual one, and by how much it may differ [rad]. Standard wheels have -1.4° to -2.9°, rails up to 1:20 inclined -2.5° to 2.3°.
 USUAL_SLOPE = {"wheel": np.radians(-2.0), "rail": 0.0}
 TURNED_BY = {"wheel": np.radians(4.5), "rail": np.radians(4.8)}
-TREAD, TOP = (
-    (-0.015, 0.02),
-    (-0.02, 0.02),
-)  # where these slopes are taken, from the tape circle and from the rail's middle [m]
+#: Where these slopes are taken, from the tape circle and from the rail's middle [m].
+TREAD, TOP = (-0.015, 0.02), (-0.02, 0.02)
 GAUGE_DEPTH = 0.014  # of the gauge face below the top of a rail [m]
 TALLER = 1.2  # a wheel is not as many times higher than wide
 
@@ -223,12 +219,11 @@ def turned(points: Points, kind: Kind) -> float:
         low, high = (middle + end for end in TREAD)
     else:
         gauge = np.flatnonzero((z > z.min() + GAUGE_DEPTH) & (np.arange(z.size) < np.argmin(z)))
-        middle = y[gauge[-1]] + CROWN_FROM_GAUGE if gauge.size else 0.5 * (y.min() + y.max())
-        before, behind = (
-            np.flatnonzero(z[part] > z.min() + HEAD_DROP) for part in np.split(np.arange(z.size), [np.argmin(z)])
-        )
-        if before.size and behind.size:
-            middle = 0.5 * (y[before[-1]] + y[np.argmin(z) + behind[0]])
+        middle, top = 0.5 * (y.min() + y.max()), int(np.argmin(z))
+        if gauge.size:
+            middle = y[gauge[-1]] + CROWN_FROM_GAUGE
+            if z[top:].max() > z[top] + HEAD_DROP:  # the field side is there: a head may be narrower
+                middle = min(middle, 0.5 * (y[gauge[-1]] + y.max()))
         low, high = (middle + end for end in TOP)
     inside = (y > low) & (y < high)
     if np.count_nonzero(inside) < 5 or np.ptp(y[inside]) < 0.8 * (high - low):
@@ -322,8 +317,8 @@ def tall(points: Points, kind: Kind) -> tuple[str, str, str] | None:
         return seen, cure, cure
     across, along = np.abs(points[-1] - points[0])  # a head on its side ends where it begins, one below the other
     lies = height > width and along > 0.8 * height and across < 0.7 * width
-    narrow = height > TALLER * width and (kind == "wheel" or width < NARROWEST)
-    if NARROWEST <= height <= WIDEST and (narrow or (kind == "rail" and lies)):
+    slim = height > TALLER * width and (kind == "wheel" or width < NARROWEST)
+    if NARROWEST <= height <= WIDEST and (slim or (kind == "rail" and lies)):
         cure = "are its columns y and z swapped, or is it turned by 90°?"
         return seen, cure, cure
     return None

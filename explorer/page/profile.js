@@ -175,6 +175,8 @@ function turned(points, kind, rules, findings) {
   if (kind === "rail") {
     const gauge = points.slice(0, top).findLastIndex(p => p[1] > z[top] + rules.gauge_depth);
     middle = gauge >= 0 ? points[gauge][0] + rules.crown_from_gauge : (points[0][0] + points[points.length - 1][0]) / 2;
+    const field = Math.max(...z.slice(top)) > z[top] + rules.head_drop; // the field side is there: a head may be narrower
+    if (gauge >= 0 && field) middle = Math.min(middle, (points[gauge][0] + Math.max(...points.map(p => p[0]))) / 2);
   }
   const [low, high] = rules.slope_between[kind].map(end => middle + end), inside = points.filter(([y]) => y > low && y < high);
   if (inside.length < 5 || inside[inside.length - 1][0] - inside[0][0] < 0.8 * (high - low)) return;

@@ -1,10 +1,12 @@
 """Command line: what is printed and written, as tables, JSON, CSV and pictures."""
 
 import csv
+import io
 import json
 from dataclasses import replace
 
 import pytest
+from rich.console import Console
 
 import contact
 import contact.stress
@@ -14,6 +16,7 @@ typer = pytest.importorskip("typer")
 
 
 from contact.cli import problem  # noqa: E402
+from contact.cli.tables import show_table  # noqa: E402
 from tests.command_line import call  # noqa: E402
 
 
@@ -130,3 +133,13 @@ def test_results_that_are_not_to_be_trusted_end_with_3(words, monkeypatch, tmp_p
     monkeypatch.setattr(Transient, "roll", untrusted(Transient.roll))
     answer = call(*(str(word).format(tmp_path) for word in words), code=3)
     assert "are not to be trusted: unreachable" in answer.stderr
+
+
+def test_a_table_in_a_narrow_terminal_loses_no_digit():
+    written = io.StringIO()
+    numbers = ["5.7394e+09", "-2.3842e-14", "0.00011496"]
+    show_table("", [("case", ""), *[("max_pressure", "Pa")] * 3], [["1", *numbers]], Console(file=written, width=30))
+    assert "…" not in written.getvalue()
+    *_, row = written.getvalue().partition("─\n")
+    columns = [line.split() for line in row.splitlines() if line.strip()]
+    assert sorted("".join(part for line in columns for part in line)) == sorted("1" + "".join(numbers))

@@ -112,6 +112,15 @@ def test_a_turned_profile_is_told_as_the_library_tells_it(kind, tmp_path):
         assert bool(inspection.turned(np.column_stack((shape.y, shape.z)), kind)) == (turn > 5.0)
 
 
+def test_a_narrow_head_is_not_called_turned(tmp_path):
+    y, z = 0.75 * SHAPES["rail"].y, SHAPES["rail"].z
+    lip = np.array([[-0.075, -0.065, -0.06, -0.04, -0.035], [0.005, 0.005, 0.02, 0.045, 0.04]])
+    for points in ((y, z), np.column_stack((lip, (y, z)))):
+        (found,) = opened(written(tmp_path, *points), kind="rail")
+        assert not any(finding.startswith("turned?") for finding in found["findings"])
+        assert inspection.turned(np.column_stack(points), "rail") == 0.0
+
+
 def test_swapped_columns_and_what_has_no_head_are_told(tmp_path):
     swapped, said = written(tmp_path, SHAPES["wheel"].z, SHAPES["wheel"].y), "are the columns y and z swapped"
     flat = written(tmp_path, np.linspace(-0.035, 0.035, 80), np.zeros(80))

@@ -91,11 +91,16 @@ def test_no_point_of_a_standard_profile_is_false(name, every):
         assert not false_rows(np.round(sign * points + [70.0, 0.0], 3)).any()
 
 
-@pytest.mark.parametrize("encoding", ENCODINGS)
-@pytest.mark.parametrize("minus", ["-", "\N{MINUS SIGN}", "\N{EN DASH}", "\N{NON-BREAKING HYPHEN}"])
-@pytest.mark.parametrize(("separator", "comma"), SEPARATORS)
-def test_every_writing_gives_all_points(encoding, minus, separator, comma, tmp_path):
-    path = written(tmp_path / "wheel.csv", rows_of(WHEEL), separator, comma, "y{0}z\n", encoding, minus)
+MINUS = ("-", "\N{MINUS SIGN}", "\N{EN DASH}", "\N{NON-BREAKING HYPHEN}")
+
+
+@pytest.mark.parametrize("i", range(len(ENCODINGS)))
+@pytest.mark.parametrize("j", range(len(SEPARATORS)))
+def test_every_writing_gives_all_points(i, j, tmp_path):
+    """Each encoding with each separator, and both with each sign for minus."""
+    separator, comma = SEPARATORS[j]
+    minus = MINUS[(i + j) % len(MINUS)]
+    path = written(tmp_path / "wheel.csv", rows_of(WHEEL), separator, comma, "y{0}z\n", ENCODINGS[i], minus)
     with warnings.catch_warnings():
         warnings.simplefilter("error")
         found = profile.read(path, **COLUMNS)

@@ -190,8 +190,7 @@ def test_a_flange_on_the_field_side_is_detected_and_corrected_by_the_option(tmp_
     same(profile.read(path, kind="wheel", unit="m", side="left"), WHEEL)
 
 
-@pytest.mark.parametrize("side", ["right", "left"])
-@pytest.mark.parametrize("up", [1.0, -1.0])
+@pytest.mark.parametrize(("side", "up"), [("right", 1.0), ("left", -1.0)])
 @pytest.mark.parametrize("name", profile.names())
 def test_a_wheel_is_no_rail_and_a_rail_no_wheel(tmp_path, name, up, side):
     path, drawn = tmp_path / "drawn.txt", profile.named(name)

@@ -27,8 +27,7 @@ def section(spacing=0.5):
 
 
 @pytest.mark.parametrize("start", [0, 0.13, 0.37, 0.5, 0.77, 0.95])
-@pytest.mark.parametrize("backwards", [False, True])
-@pytest.mark.parametrize("up", [1.0, -1.0])
+@pytest.mark.parametrize(("backwards", "up"), [(False, 1.0), (True, -1.0)])
 @pytest.mark.parametrize("spacing", [0.5, 2.0, None])
 def test_the_outline_of_a_rail_is_cut_to_its_head_from_every_start_and_either_way(
     start, backwards, up, spacing, tmp_path

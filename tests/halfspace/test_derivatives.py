@@ -32,10 +32,9 @@ def test_forces_grow_with_creepages_and_friction_together(at):
 def test_columns_of_creepages_are_differences(k, step):
     jacobian = solve(derivatives=True).jacobian
     ends = [solve([v + sign * step * (j == k) for j, v in enumerate(AT)]) for sign in (1, -1)]
-    largest = np.abs(np.asarray(jacobian)).max(axis=1)
-    for row, name in enumerate(FORCES[:3]):
+    for name in FORCES[:3]:
         slope = (getattr(ends[0], name) - getattr(ends[1], name)) / (2 * step)
-        assert slope == pytest.approx(jacobian[name, jacobian.columns[k]], abs=5e-3 * largest[row])
+        assert slope == pytest.approx(jacobian[name, jacobian.columns[k]], rel=1e-3)
 
 
 @pytest.mark.parametrize("given", ["load", "approach"])

@@ -75,6 +75,7 @@ def test_the_files_do_not_depend_on_the_number_of_threads(call, tmp_path, monkey
     assert "threads = 3 is outside the allowed range [1, 2]" in call("3", "--threads", "3").output
 
 
+@pytest.mark.usefixtures("drawn_once")
 def test_report_stands_by_itself(call, tmp_path):
     assert call("out").exit_code == 0
     page = (tmp_path / "out" / "report.html").read_text(encoding="utf-8")

@@ -31,10 +31,16 @@ def test_without_workers_items_are_done_in_order():
     assert seen == [(1, 3), (2, 3), (3, 3)]
 
 
-def test_killed_worker_loses_nothing(tmp_path):
+@pytest.fixture(scope="module")
+def two():
+    """Two workers, of which each takes seconds to begin."""
     pytest.importorskip("distributed")
     with Workers(2) as pool:
-        assert pool.map(deadly, [(str(tmp_path), k) for k in range(5)]) == [0, 1, 4, 9, 16]
+        yield pool
+
+
+def test_killed_worker_loses_nothing(two, tmp_path):
+    assert two.map(deadly, [(str(tmp_path), k) for k in range(5)]) == [0, 1, 4, 9, 16]
     assert (tmp_path / "killed").exists()
 
 
@@ -49,12 +55,10 @@ def test_a_scheduler_without_workers_is_named(monkeypatch):
         pass
 
 
-def test_wear_has_the_same_bits_with_any_number_of_workers(tmp_path):
-    pytest.importorskip("distributed")
+def test_wear_has_the_same_bits_with_any_number_of_workers(two, tmp_path):
     saved = []
-    for count in (1, 2):
+    for pool in (Workers(1), two):
         life = Life(declared_set.read(written(tmp_path)))
-        with Workers(count) as pool:
-            life.step(pool, go_on=True)
+        life.step(pool, go_on=True)
         saved.append(life.save())
     assert all(np.array_equal(saved[0][name], saved[1][name]) for name in saved[0])

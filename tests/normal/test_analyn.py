@@ -1,4 +1,4 @@
-"""ANALYN: load and approach, separate patches, the locus, robustness of the patch search."""
+"""ANALYN: load and approach, the locus, robustness of the patch search."""
 
 import functools
 
@@ -6,7 +6,6 @@ import numpy as np
 import pytest
 
 import contact
-from tests.separations import two_lobes
 
 STEEL = contact.STEEL
 NO_CREEP = contact.Creepage()
@@ -38,16 +37,6 @@ def test_a_patch_narrower_than_the_sampling_is_resolved():
     exact = contact.hertz(1.0, 3.0, load=1e-3)
     assert sol.width < 1e-4
     assert sol.max_pressure == pytest.approx(exact.p0, rel=1e-5)
-
-
-def test_separate_patches_are_labelled():
-    sol = solve(two_lobes(0.0), NO_CREEP, load=4e4)
-    assert sol.n_patches == 2
-    assert set(sol.strips.patch) == {0, 1}
-    assert (sol.strips.y[sol.strips.patch == 0] < 0).all()
-    assert (sol.strips.y[sol.strips.patch == 1] > 0).all()
-    share = (0.5 * np.pi * sol.strips.p0 * sol.strips.a * sol.strips.dy)[sol.strips.patch == 0].sum() / sol.N
-    assert share == pytest.approx(0.5, rel=1e-9), "equal lobes carry equal loads"
 
 
 def test_contact_locus_carries_the_strips():

@@ -186,16 +186,6 @@ def test_the_equivalent_ellipse_keeps_the_load_of_the_contacts():
     assert one.patch_edges.mean() == pytest.approx(np.average(several.strips.y, weights=weights), abs=1e-9)
 
 
-def test_a_second_contact_is_unloaded_by_the_gutter_of_the_first():
-    """For two equal lobes 12 mm apart, the second has less penetration, since the first lowers the surface there."""
-    alone = contact.hertz(1.0, 2.0, approach=9e-5)
-    sol = solve(two_lobes(0.0), NO_CREEP, approach=9e-5, normal="multi_hertz")
-    loads = [0.5 * math.pi * (s.p0 * s.a * s.dy)[s.patch == k].sum() for s in [sol.strips] for k in (0, 1)]
-    assert loads[0] == pytest.approx(alone.N, rel=1e-6)
-    sunk = alone.N / (math.pi * E * 12e-3)  # displacement by a point load
-    assert loads[1] == pytest.approx(alone.N * (1 - sunk / 9e-5) ** 1.5, rel=0.05)
-
-
 def test_pressures_of_overlapping_ellipses_add_up():
     y = np.linspace(-20e-3, 20e-3, 401)
     separation = contact.Separation(y, 2.0 * y**2 * np.where(y > 0, 0.2, 1.0), 1.0)

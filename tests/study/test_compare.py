@@ -123,6 +123,7 @@ def test_the_dataset_is_labelled_by_case_and_method(small):
 
 
 @pytest.mark.slow
+@pytest.mark.usefixtures("drawn_once")
 def test_the_page_needs_nothing_from_outside(small):
     pytest.importorskip("matplotlib")
     text = small.html()
@@ -137,6 +138,7 @@ def test_the_page_needs_nothing_from_outside(small):
     assert "no contact" in page.cells
 
 
+@pytest.mark.usefixtures("undrawn")
 def test_names_are_text_and_not_markup_on_the_page():
     pytest.importorskip("matplotlib")
     text = contact.compare(problem("<b>&"), "hertz+fastrip", reference=False).html()

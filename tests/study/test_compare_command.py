@@ -69,6 +69,7 @@ def test_files_of_cases_say_the_same(tmp_path, name):
 
 
 @pytest.mark.slow
+@pytest.mark.usefixtures("drawn_once")
 def test_tables_and_files(tmp_path):
     pytest.importorskip("matplotlib")
     files = [tmp_path / f"out.{ending}" for ending in ("html", "csv", "png", "json")]

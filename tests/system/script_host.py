@@ -1,6 +1,7 @@
 """C host `host/script.c`, which runs commands from standard input, compiled for a platform."""
 
 import os
+import re
 import subprocess
 from pathlib import Path
 
@@ -40,4 +41,5 @@ class Script:
             env=self.environment,
         )
         assert done.returncode == 0, done.stdout + done.stderr
-        return np.array(done.stdout.split(), dtype=float)
+        # messages, as of a doubtful status, stand on lines of their own
+        return np.array(re.findall(r"^[-+]?(?:\d[\d.e+-]*|nan|inf)$", done.stdout, re.MULTILINE), dtype=float)

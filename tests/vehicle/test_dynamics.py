@@ -36,10 +36,9 @@ def test_vehicle_at_rest_on_straight_track_stays_at_rest():
     assert sim.wheels["vertical"] == pytest.approx(54546.0, rel=1e-3)
 
 
-@pytest.mark.parametrize("direction", ["right", "left"])
-def test_energy_closes_over_transitions_and_a_curve(direction):
-    """The prototype lost 2 to 10 %: rails climb on a ramp of the cant."""
-    sim = simulation("manchester", curve(direction), speed=15.0, length=75.0)
+def test_energy_closes_over_transitions_and_a_curve():
+    """The prototype lost 2 to 10 %: rails climb on a ramp of the cant. The left curve is the mirror image (below)."""
+    sim = simulation("manchester", curve("right"), speed=15.0, length=75.0)
     sim.advance(4e-4, 12500)  # 75 m
     assert sim.distance == pytest.approx(75.0)
     assert sim.state.books[Book.DISSIPATED] > 5e3
