@@ -7,12 +7,9 @@ disagree.
 from contact.damage.archard import ArchardMap, wear_coefficient
 from contact.damage.assessment import WEAR_LAWS, ArchardWear, Damage, DamageParameters, IndexField, evaluate
 from contact.damage.burstow import Burstow, burstow
-from contact.damage.energy_index import energy_index
-from contact.damage.fatigue_index import fatigue_index
+from contact.damage.indices import energy_index, fatigue_index, stress_index, t_gamma
 from contact.damage.pearce_sherratt import PearceSherratt, pearce_sherratt
 from contact.damage.shakedown import shakedown_limit
-from contact.damage.stress_index import stress_index
-from contact.damage.t_gamma import t_gamma
 from contact.damage.usfd import Usfd, usfd
 
 __all__ = [

@@ -2,38 +2,32 @@
 
 from __future__ import annotations
 
-import re
+from contact.kernels.records import MEANING, unit_of
 
-from contact.kernels.records import MEANING
-
-#: Unit → names of inputs and results that have it. "1" is a pure number.
+#: Unit → names of inputs and results that have it, besides those of the records. "1" is a pure number.
 _NAMES = {
-    "m": "cant lead height "
-    "station wheel_z x z origin flat flat_depth begin end spacing step offset roller_radius deflection_y deflection_z "
-    "curve_radius smallest_radius needed available "
-    "y radius gauge back_to_back left_radius reach amplitude penetration approach profile_smoothing profile_zero "
-    "profile_wavelength smoothing wavelength centre position rolling_radius length width radius_difference right_on_wheel "
-    "right_on_rail right_radius left_on_wheel left_on_rail distance at mileage on_rail_y on_rail_z on_wheel_y on_wheel_z",
-    "rad": "bend rotation turned profile_rotation pitch roll yaw angle contact_angle angle_difference right_angle left_angle",
+    "m": "cant lead height station origin flat flat_depth begin end spacing step offset roller_radius "
+    "deflection_y deflection_z curve_radius smallest_radius needed available radius gauge back_to_back "
+    "left_radius reach amplitude penetration profile_smoothing profile_zero profile_wavelength smoothing "
+    "wavelength centre position rolling_radius radius_difference right_on_wheel right_on_rail "
+    "right_radius left_on_wheel left_on_rail distance at mileage on_rail_y on_rail_z on_wheel_y "
+    "on_wheel_z",
+    "rad": "rotation turned profile_rotation roll yaw contact_angle angle_difference right_angle left_angle",
     "m/s": "speed velocity",
-    "N": "guiding "
-    "load vertical Q Y N Fx Fy Fz fx fy force preload force_x force_y normal_force T_gamma T_gamma_spin dissipation "
-    "power_per_metre",
-    "N m": "Mx My Mz torque steering",
+    "N": "guiding load vertical fx fy force preload force_x force_y normal_force power_per_metre",
+    "N m": "torque steering",
     "W": "power",
-    "Pa": "p qx qy value pressure_limit max_pressure stress_index_max energy_index_max shear_modulus hardness shear_yield",
+    "Pa": "p qx qy value pressure_limit max_pressure stress_index_max energy_index_max shear_modulus hardness "
+    "shear_yield",
     "K": "temperature",
-    "m²": "area adhesion_area slip_area dA",
+    "m²": "adhesion_area dA",
     "N/m": "normal_stiffness springs",
-    "1/m": "curvatures spin nonlinearity",
-    "m²/m": "pearce_sherratt",
-    "m/m": "usfd archard_depth_max",
-    "m³/m": "archard_volume",
+    "1/m": "curvatures nonlinearity",
+    "m/m": "archard_depth_max",
     "s": "seconds every duration time damping",
-    "1": "friction profile_scale inclination slip_ratio used_friction utilisation sx sy "
-    "longitudinal lateral conicity slope share gap_error beyond fatigue_index "
-    "burstow index Y_over_Q poisson_ratio coupling errors.force errors.moment errors.N errors.approach "
-    "errors.max_pressure errors.area errors.pressure",
+    "1": "friction profile_scale inclination slip_ratio utilisation sx sy conicity slope share index "
+    "poisson_ratio coupling errors.force errors.moment errors.N errors.approach errors.max_pressure "
+    "errors.area errors.pressure",
     "1, 1, 1/m": "creepage",
     "m, m, rad": "shift",
     "Pa, -, Pa, -": "bodies",
@@ -46,12 +40,11 @@ _NAMES = {
     "Pa, 1, 1": "endurance",
     "1, m": "polygon",
 }
+_OF_RECORDS = {
+    name: unit_of(f"{record}.{name}").translate(str.maketrans("23", "²³"))
+    for record in ("contact", "total", "result", "damage")
+    for name, meaning in MEANING[record].items()
+    if "[" in meaning
+}
 #: A name with a point is that of a member: it goes before the name of the member alone.
-UNITS = {name: unit for unit, names in _NAMES.items() for name in names.split()}
-
-
-def stated(member: str) -> str:
-    """Return the unit that the kernels state for a number "record.member", "1" for none."""
-    record, name = member.split(".")
-    found = re.search(r"\[(.+?)\]", MEANING[record][name])
-    return found[1].replace("-", "1") if found else "1"
+UNITS = _OF_RECORDS | {name: unit for unit, names in _NAMES.items() for name in names.split()}

@@ -15,7 +15,7 @@ from contact_models.vehicle.declared import VehicleDeclaration, read
 from contact_models.vehicle.kernels.layout import FARTHEST
 from ..rows import output, parameter, signal, taken
 from ..variables import Table, Variable
-from . import vehicle
+from . import vehicle as of_vehicle
 from .vehicle import Starts, started
 from .wheel_rail_pair import inputs, parameters
 
@@ -48,7 +48,7 @@ def table(vehicle: str, starts: Starts = (), name: str = "OpenVehicle") -> Table
 
 def _parameters(declared: VehicleDeclaration) -> Iterable[Variable]:
     n = len(declared.wheelsets)
-    yield vehicle.initial_distance()
+    yield of_vehicle.initial_distance()
     of = "of each wheelset at the start"
     yield parameter("initial.y", f"pose.y {of}", unit="m", shape=(n,), start=0.0, nominal=1e-3)
     about = f"pose.z {of}, at which its wheels carry their load (WheelRailPair with NormalForce)"
@@ -63,7 +63,7 @@ def _parameters(declared: VehicleDeclaration) -> Iterable[Variable]:
 
 
 def _inputs(declared: VehicleDeclaration) -> Iterable[Variable]:
-    yield from vehicle.inputs()
+    yield from of_vehicle.inputs()
     for name in ANSWER:
         kind, axis = name.split(".")
         about = f"{kind.title()} of the rail on each wheel, track coordinates, {axis}"
@@ -72,10 +72,10 @@ def _inputs(declared: VehicleDeclaration) -> Iterable[Variable]:
 
 
 def _outputs(declared: VehicleDeclaration) -> Iterable[Variable]:
-    given = (*(row.name for row in _parameters(declared)), *(row.name for row in vehicle.inputs()))
+    given = (*(row.name for row in _parameters(declared)), *(row.name for row in of_vehicle.inputs()))
     n = 2 * len(declared.wheelsets)
     asked = {row.name: row for row in inputs()}
     for row in (asked[name] for name in QUESTION):
         about, nominal = f"{row.description}, to each pair", _NOMINAL[str(row.unit)]
         yield output(f"wheel[].{row.name}", about, unit=row.unit, shape=(n,), nominal=nominal, depends=given)
-    yield from vehicle.motion(declared, given)
+    yield from of_vehicle.motion(declared, given)
