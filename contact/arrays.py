@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
+from dataclasses import fields
 from typing import Any
 
 import numpy as np
@@ -12,6 +13,20 @@ from numpy.typing import NDArray
 from contact.errors import ContactError, real, require_number
 
 Array = NDArray[np.float64]
+#: Arrays of so many values are told in full.
+_FEW = 6
+
+
+def brief(record: Any) -> str:
+    """Return a `__repr__` of a record: of long arrays only shape and range."""
+    values = ((each.name, getattr(record, each.name)) for each in fields(record) if each.repr)
+    return f"{type(record).__name__}({', '.join(f'{name}={_range(value)}' for name, value in values)})"
+
+
+def _range(value: Any) -> str:
+    if not isinstance(value, np.ndarray) or value.size <= _FEW or value.dtype.kind not in "iufb":
+        return repr(value.tolist() if isinstance(value, np.ndarray) else value)
+    return f"<{' × '.join(map(str, value.shape))}: {value.min():g} … {value.max():g}>"
 
 
 def as_array(name: str, values: object) -> Array:
@@ -61,6 +76,22 @@ def require_numbers(
         where = np.unravel_index(int(np.argmin(good)), array.shape)
         require_number(_placed(name, where), float(array[where]), minimum, maximum, open_minimum=open_minimum)
     return array
+
+
+def require_aligned(**given: Any) -> None:
+    """Raise a ContactError for arguments of xarray or pandas whose labels differ, since cases are paired by position."""
+    for label in ("dims", "index"):
+        labels = {name: getattr(value, label, ()) for name, value in given.items()}
+        (first, expected), *others = [one for one in labels.items() if not callable(one[1]) and len(one[1])] or [
+            ("", ())
+        ]
+        for name, own in others:
+            n = min(len(own), len(expected)) if label == "dims" else max(len(own), len(expected))
+            if list(own[-n:]) != list(expected[-n:]):
+                raise ContactError(
+                    f"{label} of {first} and {name} differ, but cases are paired by position; align them "
+                    "(xarray.broadcast, DataFrame.align), or take their .values"
+                )
 
 
 def broadcast(arrays: Mapping[str, NDArray[Any]]) -> list[NDArray[Any]]:

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from contact.arrays import Array, broadcast, require_numbers
+from contact.arrays import Array, broadcast, require_aligned, require_numbers
 from contact.core import pack
 from contact.errors import ContactError, require_flag, require_integer
 from contact.friction import Friction
@@ -120,6 +120,9 @@ def forces(
     for name, values in columns.items():
         doubt_values(name, values)
     columns["separation"] = index
+    require_aligned(
+        **dict(zip(_PARTS, creepages, strict=True)), **{load_name: wanted}, friction=coefficients, speed=speed
+    )
     amount, vx, vy, phi, mu, V, which = broadcast(columns)
     n_strips, n_elements = require_resolution(n_strips, n_elements)
     method, rolling = (lookup(*kind, batched=True) for kind in (("normal", normal), ("tangential", tangential)))

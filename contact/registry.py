@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
-from types import MappingProxyType
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, TypeVar
 
 from contact.errors import ContactError, suggestion
 from contact.kernels.enumerations import Normal, NormalFamily, Tangential, TangentialFamily
@@ -13,6 +13,7 @@ from contact.view.notebook import table
 #: The default methods. The strip half space starts from ANALYN, and mapped FaStrip corrects FaStrip (docs/check/accuracy.md).
 DEFAULT_NORMAL, DEFAULT_TANGENTIAL = "strip_halfspace", "fastrip_mapped"
 
+T = TypeVar("T")
 
 #: Limits of `gap_error` [-] of strips that do not interact, and of those that do (benchmarks/gap_error.py).
 GAP_LIMIT, GAP_LIMIT_INTERACTING = 0.17, 0.03
@@ -98,6 +99,25 @@ class Method:
         return "fastsim" if self.calibrated else self.name
 
 
+class ReadOnly(Mapping[str, T]):
+    """A mapping that cannot be changed. Unlike `types.MappingProxyType` it can be copied and pickled."""
+
+    def __init__(self, items: Mapping[str, T]) -> None:
+        self._items = dict(items)
+
+    def __getitem__(self, name: str) -> T:
+        return self._items[name]
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._items)
+
+    def __len__(self) -> int:
+        return len(self._items)
+
+    def __repr__(self) -> str:
+        return repr(self._items)
+
+
 class Methods(NamedTuple):
     """The registered normal and tangential methods by name, in order of registration.
 
@@ -108,8 +128,8 @@ class Methods(NamedTuple):
     ['halfspace']
     """
 
-    normal: MappingProxyType[str, Method]
-    tangential: MappingProxyType[str, Method]
+    normal: ReadOnly[Method]
+    tangential: ReadOnly[Method]
 
     def __repr__(self) -> str:
         return f"Methods(normal: {', '.join(self.normal)}; tangential: {', '.join(self.tangential)})"
@@ -128,7 +148,7 @@ class Methods(NamedTuple):
     @property
     def batched(self) -> Methods:
         """The methods that `contact.forces` and the FMUs offer."""
-        return Methods(*(MappingProxyType({n: m for n, m in kind.items() if m.batched}) for kind in self))
+        return Methods(*(ReadOnly({n: m for n, m in kind.items() if m.batched}) for kind in self))
 
 
 def _normal(name: str, family: NormalFamily, title: str, source: str, **abilities: bool) -> Method:
@@ -291,8 +311,8 @@ _TANGENTIAL = (
     ),
 )
 _METHODS = Methods(
-    MappingProxyType({method.name: method for method in _NORMAL}),
-    MappingProxyType({method.name: method for method in _TANGENTIAL}),
+    ReadOnly({method.name: method for method in _NORMAL}),
+    ReadOnly({method.name: method for method in _TANGENTIAL}),
 )
 
 
@@ -316,7 +336,7 @@ def lookup(kind: str, name: str, *, batched: bool = False) -> Method:
     ContactError
         For any other name. The message lists the allowed names.
     """
-    known: MappingProxyType[str, Method] = getattr(_METHODS.batched if batched else _METHODS, kind)
+    known: ReadOnly[Method] = getattr(_METHODS.batched if batched else _METHODS, kind)
     if not isinstance(name, str) or name not in known:
         what = "offered here, only by contact.solve" if name in list(getattr(_METHODS, kind)) else "a registered method"
         raise ContactError(f"{kind} = {name!r} is not {what}{suggestion(name, known)}; allowed: {', '.join(known)}")

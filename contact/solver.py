@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import replace
-from types import MappingProxyType, UnionType
+from types import UnionType
 from typing import Any
 
 import numpy as np
@@ -26,16 +26,14 @@ from contact.kernels.arrays import SolverArrays
 from contact.kernels.enumerations import LoadKind
 from contact.kernels.normal.start import MEM_IMAGE
 from contact.kernels.solver import derive_contact, solve_contact, solve_contact_under_force
-from contact.registry import DEFAULT_NORMAL, DEFAULT_TANGENTIAL, GAP_LIMIT_INTERACTING, Method, lookup
+from contact.registry import DEFAULT_NORMAL, DEFAULT_TANGENTIAL, GAP_LIMIT_INTERACTING, Method, ReadOnly, lookup
 from contact.results import ANSWERS, BEND, BEYOND, CaseForces, Jacobian, Prepared, Solution, Status, doubt_answer
 from contact.results.later import STATES
 from contact.results.solution import BEND_AT, BEYOND_AT, GAP_ERROR, N_AT, READ_RESULT, STATUS
 from contact.view import trace
 
 #: The methods of the thesis and a resolution for them, as arguments of `solve`, `forces`, `Solver` and `WheelRailPair`.
-THESIS: Mapping[str, Any] = MappingProxyType(
-    {"normal": "analyn", "tangential": "fastrip", "n_strips": 30, "n_elements": 30}
-)
+THESIS: Mapping[str, Any] = ReadOnly({"normal": "analyn", "tangential": "fastrip", "n_strips": 30, "n_elements": 30})
 #: Default number of separation samples for which a solver allocates memory.
 N_SAMPLES = 101
 

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 import contact
+from contact.errors import ContactError
 from contact.friction import Friction
 from reference import random_cases
 
@@ -63,3 +64,17 @@ def test_scalars_give_scalars_and_no_contact_is_a_valid_result(ellipse):
     assert none.Fx.shape == ()
     assert none.status == contact.Status.NO_CONTACT
     assert (none.Fx, none.slip_ratio) == (0.0, 0.0)
+
+
+def test_arguments_with_other_labels_are_not_paired_by_position(ellipse):
+    pandas, xarray = pytest.importorskip("pandas"), pytest.importorskip("xarray")
+    over, along = xarray.DataArray([0.0, 1e-3], dims="slip"), xarray.DataArray([60e3, 80e3], dims="wheel")
+    both = (over * (along / along)).transpose("slip", "wheel")
+    sorted_otherwise = pandas.Series([60e3, 80e3], index=[1, 0])
+    for creepage, load in ((over, along), (both, over), (pandas.Series([0.0, 1e-3]), sorted_otherwise)):
+        with pytest.raises(ContactError, match=r"(dims|index) of longitudinal and load differ"):
+            contact.forces(ellipse, (creepage, 0.0, 0.0), load=load)
+    expected = contact.forces(ellipse, ([[0.0], [1e-3]], 0.0, 0.0), load=[60e3, 80e3])
+    np.testing.assert_array_equal(contact.forces(ellipse, (both, 0.0, 0.0), load=along).Fx, expected.Fx)
+    frame = pandas.DataFrame({"slip": [0.0, 1e-3], "load": [60e3, 80e3]})
+    assert contact.forces(ellipse, (frame["slip"], 0.0, 0.0), load=frame["load"]).Fx.shape == (2,)

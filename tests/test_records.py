@@ -3,11 +3,14 @@
 import copy
 import dataclasses
 import pickle
+import pkgutil
+from importlib import import_module
 
 import numpy as np
 import pytest
 
 import contact
+import contact_models
 from contact.accumulation import Histogram
 from contact.errors import ContactError
 from contact.friction import Friction
@@ -291,3 +294,51 @@ def test_profiles_patches_and_pairs_are_shown_in_a_notebook():
     assert f"{found.Q:.6g} N" in text
     assert f"{1e-6 * found.contacts[0].max_pressure:.5g}" in text
     assert "NO_CONTACT" in words(WheelRailPair(pair).solve(Pose(z=-1e-3))._repr_html_())
+
+
+# Every record
+
+
+def records_of_arrays():
+    """Return the classes of records in the packages that a user imports which have members that are arrays."""
+    names = [contact.__name__, contact_models.__name__]
+    for package in (contact, contact_models):
+        names += [m.name for m in pkgutil.walk_packages(package.__path__, f"{package.__name__}.") if m.ispkg]
+    public = [
+        getattr(import_module(name), one) for name in names for one in getattr(import_module(name), "__all__", ())
+    ]
+    records = {one for one in public if isinstance(one, type) and dataclasses.is_dataclass(one)}
+    records -= {contact.halfspace.Normal}  # its module has kernels: a change of it compiles the half space anew
+    return [one for one in records if any("Array" in str(each.type) for each in dataclasses.fields(one))]
+
+
+@pytest.mark.parametrize("record", sorted(records_of_arrays(), key=str), ids=lambda record: record.__name__)
+def test_a_record_of_arrays_compares_without_an_error_and_its_repr_is_written_for_it(record):
+    assert record.__eq__ is object.__eq__
+    assert not hasattr(record.__repr__, "__wrapped__"), "the repr is that of dataclasses, which writes arrays out"
+
+
+def test_the_repr_of_results_is_short(solution):
+    creepage = np.linspace(0.0, 1e-3, 100), 0.0, 0.0
+    found = contact.forces(contact.Separation.hertzian(1.1, 0.8), creepage, load=80e3)
+    for record in (found, solution.strips, solution.damage, solution.damage.archard):
+        assert len(repr(record)) < 1500, record
+    assert "Fx=<100: -11846.1 … 0>" in repr(found)
+    assert found == found
+    assert found != copy.deepcopy(found)
+
+
+def test_the_repr_of_a_pair_names_side_and_radius():
+    pair = Pair(profile.s1002(), profile.rail_60e1(), side="left")
+    assert repr(WheelRailPair(pair)) == "WheelRailPair(Pair(left, nominal_radius=0.46))"
+
+
+@pytest.mark.parametrize("way", COPIES)
+@pytest.mark.parametrize("one", [contact.THESIS, contact.methods()], ids=["thesis", "methods"])
+def test_what_a_process_is_given_can_be_copied(one, way):
+    assert COPIES[way](one) == one
+
+
+def test_the_choice_of_methods_cannot_be_changed():
+    with pytest.raises(TypeError):
+        contact.THESIS["normal"] = "hertz"

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Literal, NamedTuple, get_args
 
 import numpy as np
 
-from contact.arrays import Array
+from contact.arrays import Array, brief
 from contact.damage.archard import ArchardMap
 from contact.damage.burstow import Burstow
 from contact.damage.pearce_sherratt import PearceSherratt
@@ -84,15 +84,17 @@ class DamageParameters:
         return made
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, eq=False)
 class IndexField:
     """An index over the patch, shape (n_strips, n_elements) [Pa], and its maximum [Pa]."""
 
     field: Array
     max: float
 
+    __repr__ = brief
 
-@dataclass(frozen=True, slots=True)
+
+@dataclass(frozen=True, slots=True, eq=False)
 class ArchardWear:
     """Archard's sliding wear, spread over the circumference of the wheel.
 
@@ -110,6 +112,8 @@ class ArchardWear:
     depth_max: float
     volume: float
     wheel_radius: float
+
+    __repr__ = brief
 
     @property
     def depth_per_revolution(self) -> Array:

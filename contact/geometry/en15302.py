@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from contact.arrays import Array, require_numbers
+from contact.arrays import Array, brief, require_numbers
 from contact.errors import ContactError, require_number
 from contact.geometry.rigid import ContactPoints, contact_points
 from contact.geometry.shape import Profile
@@ -26,7 +26,7 @@ _NODES = 2000  # nodes of the integral
 _FLAT = 1e-14  # C - S [m²] below this is round-off; it is a conicity of about 1e-8
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Conicity:
     """Equivalent conicity over the amplitude.
 
@@ -46,6 +46,8 @@ class Conicity:
     conicity: Array
     centre: Array
     points: ContactPoints
+
+    __repr__ = brief
 
     def wavelength(self, base: float = 1.5, radius: float = RADIUS.usual) -> Array:
         """Return Klingel's wavelength λ = 2π √(e r0/(2 tan γe)) [m]; infinite unless the conicity is positive.

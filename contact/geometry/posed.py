@@ -59,6 +59,9 @@ class Posed(OwnsArrays):
         self._doubted: set[str] = set()  # names for which there was a PlausibilityWarning
         self.told: set[str] = set()  # for what there was a ModelWarning
 
+    def __repr__(self) -> str:
+        return f"{type(self).__name__}({self.side}, nominal_radius={self.nominal_radius:g})"
+
     @one_thread
     def given(
         self,

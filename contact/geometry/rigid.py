@@ -11,7 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
-from contact.arrays import Array, as_array
+from contact.arrays import Array, as_array, brief
 from contact.errors import ContactError, require_number
 from contact.geometry.shape import Profile
 from contact.geometry.wheelset import Pair, Pose
@@ -22,7 +22,7 @@ _STEEPEST_ROLL = 0.1  # largest roll of a pose [rad]
 _BISECTIONS = 44  # bisections of the range of roll, down to 1e-14 rad
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Touches:
     """Contact points of one wheel on its rail, as arrays over the lateral displacements.
 
@@ -41,8 +41,10 @@ class Touches:
     radius: Array
     angle: Array
 
+    __repr__ = brief
 
-@dataclass(frozen=True)
+
+@dataclass(frozen=True, eq=False)
 class ContactPoints:
     """Contact points of a wheelset at the lateral displacements `y` [m] and the corresponding `roll` [rad]."""
 
@@ -50,6 +52,8 @@ class ContactPoints:
     roll: Array
     right: Touches
     left: Touches
+
+    __repr__ = brief
 
     @property
     def radius_difference(self) -> Array:

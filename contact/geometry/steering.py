@@ -16,7 +16,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
-from contact.arrays import Array, require_numbers
+from contact.arrays import Array, brief, require_numbers
 from contact.errors import ContactError, require_number
 from contact.geometry.en15302 import equivalent_conicity
 from contact.geometry.rigid import ContactPoints
@@ -25,7 +25,7 @@ from contact.inputs.options import RADIUS
 FLANGE = math.radians(30.0)
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Steering:
     """Radial steering in curves.
 
@@ -51,6 +51,8 @@ class Steering:
     available: float
     at: float
     smallest_radius: float
+
+    __repr__ = brief
 
 
 def steering(

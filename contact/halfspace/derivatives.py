@@ -22,7 +22,7 @@ from contact.halfspace.krylov import gmres
 from contact.halfspace.norm import response
 from contact.halfspace.pressed import Pressed
 from contact.halfspace.solution import GridSolution
-from contact.halfspace.tang import OFFSET, prepare, rigid_slip
+from contact.halfspace.tang import OFFSET, frictionless, prepare, rigid_slip
 from contact.inputs.creepage import Creepage
 from contact.results import Jacobian
 
@@ -75,7 +75,7 @@ def derive(pressed: Pressed, solution: GridSolution) -> Jacobian:
     values[3, 3], values[4, 3] = unit * stiffness, unit
     creepage, mu, factor = solution.creepage, solution.friction, pressed.factor()
     bound = mu * factor * p
-    if bound.any():
+    if not frictionless(bound, pressed.material):
         rows = Bent.plane(creepage, y)
         rolling, w, window = prepare(p, x, y, rows, bound, pressed.material, OFFSET, None, 0.0, _TOLERANCE, None)
         q = np.stack([field[window] for field in traction])

@@ -16,7 +16,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from contact.arrays import Array, as_array
+from contact.arrays import Array, as_array, brief
 from contact.errors import ContactError, require_number
 from contact.friction import Friction, as_friction
 from contact.inputs.material import Thermal
@@ -70,7 +70,7 @@ class Warmth:
         return self.change * np.clip((self.background + rise - self.reference) / self.span, 0.0, 1.0)
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class LocalLaw:
     """Friction that depends on the slip velocity of each element, for `contact.Transient`.
 
@@ -96,6 +96,8 @@ class LocalLaw:
     memory_distance: float = 0.0
     memory_speed: float = 0.0
     warmth: Warmth | None = None
+
+    __repr__ = brief
 
     def __post_init__(self) -> None:
         require_number("memory_distance", self.memory_distance, 0.0)

@@ -24,7 +24,7 @@ from contact.halfspace.local_law import LocalLaw
 from contact.halfspace.newton import Newton, Operator
 from contact.halfspace.norm import Normal
 from contact.halfspace.state import State
-from contact.halfspace.tang import OFFSET, Rolling, Tangential, rigid_slip
+from contact.halfspace.tang import OFFSET, Rolling, Tangential, frictionless, rigid_slip
 from contact.halfspace.third_body import FLOOR, LEAST, Sheared, ThirdBody, from_the_front, hardened
 from contact.halfspace.unlike import Coupling
 from contact.inputs.creepage import Creepage
@@ -251,7 +251,7 @@ class Stepper:
         unknown = [k for k in (0, 1) if force[k] is not None]
         known = [0.0 if k in unknown else v for k, v in enumerate((motion.longitudinal, motion.lateral))]
         rows = Bent.plane(Creepage(known[0], known[1], motion.spin), self.y)
-        if not bound.any():
+        if frictionless(bound, self.material):
             zero = np.zeros(self.shape)
             rigid = rigid_slip(self.x, rows, 0.0) * (p > 0.0)
             slipping = np.zeros(self.shape, dtype=bool)

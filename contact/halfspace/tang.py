@@ -23,13 +23,14 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from contact.arrays import Array
+from contact.arrays import Array, brief
 from contact.halfspace import zones
 from contact.halfspace.bent import Bent
 from contact.halfspace.influence import Influence, tangential
 from contact.halfspace.newton import Newton, Operator
 from contact.inputs.creepage import Creepage
 from contact.inputs.material import Material
+from contact.kernels.tangential.fastsim import NO_FRICTION
 
 Window = tuple[slice, slice]
 
@@ -39,7 +40,7 @@ OFFSET = 1.0 / 6.0
 MAX_DISTANCES = 12
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, eq=False)
 class Tangential:
     """Solution of the tangential problem; arrays have shape (ny, nx).
 
@@ -63,6 +64,8 @@ class Tangential:
     products: int
     residual: float
     converged: bool
+
+    __repr__ = brief
 
 
 def tang(
@@ -114,7 +117,7 @@ def tang(
     touching = p > 0.0
     bound = friction * p
     rows = creepage if isinstance(creepage, Bent) else Bent.plane(creepage, y)
-    if not bound.any():
+    if frictionless(bound, material):
         rigid = np.zeros((2, *p.shape))
         if touching.any():
             rigid[:, touching] = rigid_slip(x, rows, 0.0)[:, touching]
@@ -130,6 +133,11 @@ def tang(
     return Tangential(
         qx, qy, sx, sy, zone == zones.STICK, rolling.iterations, rolling.products, residual, residual <= tolerance
     )
+
+
+def frictionless(bound: Array, material: Material) -> bool:
+    """Return whether a traction `bound` [Pa] counts as zero, as on strips: its square would underflow."""
+    return not bound.max(initial=0.0) > NO_FRICTION * material.shear_modulus
 
 
 def prepare(

@@ -107,6 +107,9 @@ class AnyPair(OwnsArrays, ABC):
 
     pair: Posed
 
+    def __repr__(self) -> str:
+        return f"{type(self).__name__}({self.pair!r})"
+
     @abstractmethod
     def solve(self, *args: Any, **kwargs: Any) -> PairSolution:
         """Return the solution at one instant, for a pose, a velocity and what is given."""

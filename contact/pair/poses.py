@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from contact.arrays import Array, broadcast, require_numbers
+from contact.arrays import Array, brief, broadcast, require_aligned, require_numbers
 from contact.errors import ContactError
 from contact.forces import cores
 from contact.friction import Friction
@@ -56,6 +56,8 @@ class PoseForces(ArrayOfResults):
     gap_error: Array
     n_patches: NDArray[np.int64]
     status: NDArray[np.int64]
+
+    __repr__ = brief
 
 
 _FLOATS = [name for name in TOTAL.names or () if TOTAL[name].kind == "f"]
@@ -146,6 +148,19 @@ def over_poses(
     for name, values in columns.items():
         doubt_values(name, values)
     height = {Height.GIVEN: "z", Height.LOAD: "load", Height.PENETRATION: "penetration"}[mode]
+    require_aligned(
+        y=y,
+        z=z,
+        roll=roll,
+        yaw=yaw,
+        load=load,
+        penetration=penetration,
+        longitudinal=longitudinal,
+        lateral=lateral,
+        spin=spin,
+        speed=speed,
+        friction=coefficients,
+    )
     spread = broadcast({height: limited, **columns})
     shape = spread[0].shape
     amount, y_, roll_, yaw_, vx, vy, phi, V, mu = (np.ravel(values) for values in spread)

@@ -10,7 +10,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from contact.arrays import Array
+from contact.arrays import Array, brief
 from contact.damage.assessment import assess
 from contact.geometry.records import Patch, Pose, contact_angle
 from contact.geometry.surfaces import SurfacePatch
@@ -165,6 +165,8 @@ class PairSolution(MadeLater):
     bend: float = 0.0
     beyond: float = 0.0
     jacobian: PairJacobian | None = field(default=None, repr=False)
+
+    __repr__ = brief
 
     @classmethod
     def of_kernel(

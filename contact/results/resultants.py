@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from contact.arrays import brief
 from contact.kernels.enumerations import Status
 from contact.results.jacobian import Jacobian
 from contact.view.tables import ArrayOfResults
@@ -14,7 +15,7 @@ from contact.view.tables import ArrayOfResults
 Numbers = float | NDArray[np.float64]
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, eq=False)
 class Forces(ArrayOfResults):
     """Results of arrays of cases. Each member is an array of the input's broadcast shape; units and signs as in `Solution`.
 
@@ -41,6 +42,8 @@ class Forces(ArrayOfResults):
     status: int | NDArray[np.int64]
     gap_error: Numbers
     jacobian: Jacobian | None = None
+
+    __repr__ = brief
 
     __getstate__ = ArrayOfResults.__getstate__  # with the names of the axes
     __setstate__ = ArrayOfResults.__setstate__

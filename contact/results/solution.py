@@ -13,7 +13,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from contact.arrays import Array
+from contact.arrays import Array, brief
 from contact.damage import Damage, evaluate
 from contact.errors import only_with_fields
 from contact.inputs.creepage import Creepage
@@ -82,6 +82,8 @@ class Strips:
     lateral: Array | None = None
     spin: Array | None = None
     tilt: Array | None = None
+
+    __repr__ = brief
 
 
 class Prepared(NamedTuple):

@@ -16,7 +16,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from contact.arrays import Array, require_numbers
+from contact.arrays import Array, brief, require_numbers
 from contact.errors import ContactError, require_number
 from contact.results import Solution
 from contact.stress.field import Peak
@@ -48,6 +48,8 @@ class DangVan:
     amplitude: Array
     slope: float
     body: str
+
+    __repr__ = brief
 
     @property
     def peak(self) -> Peak:

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from contact.arrays import Array
+from contact.arrays import Array, brief
 from contact.errors import ContactError, suggestion
 
 #: Names of the scalars of which `StressField.peak` and `contact.stress.largest` return the largest value.
@@ -48,6 +48,8 @@ class StressField:
     xz: Array
     yz: Array
     body: str
+
+    __repr__ = brief
 
     @property
     def tensor(self) -> Array:

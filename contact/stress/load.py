@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
-from contact.arrays import Array, as_array
+from contact.arrays import Array, as_array, brief
 from contact.errors import ContactError, require_integer
 from contact.halfspace.gap import even
 from contact.halfspace.solution import GridSolution
@@ -45,6 +45,8 @@ class SurfaceLoad:
     p: Array
     qx: Array
     qy: Array
+
+    __repr__ = brief
 
     def __init__(self, x: ArrayLike, y: ArrayLike, p: ArrayLike, qx: ArrayLike = 0.0, qy: ArrayLike = 0.0) -> None:
         put = object.__setattr__

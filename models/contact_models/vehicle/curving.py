@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from contact.arrays import Array
+from contact.arrays import Array, brief
 from contact.errors import ContactError
 from contact.friction import Friction
 from contact.geometry.profile import Profile
@@ -27,7 +27,7 @@ _MOST = 25  # iterations
 _TOLERANCE = 1e-3  # of the accelerations [m/s²], [rad/s²]
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Curving:
     """A vehicle in equilibrium in a curve.
 
@@ -43,6 +43,8 @@ class Curving:
     cant: float
     q: Array
     wheels: NDArray
+
+    __repr__ = brief
 
 
 class Equilibrium:

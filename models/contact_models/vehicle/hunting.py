@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from contact.arrays import Array
+from contact.arrays import Array, brief
 from contact.errors import ContactError, require_number
 from contact.friction import Friction
 from contact.geometry.profile import Profile
@@ -20,7 +20,7 @@ from .track import Track
 _WINDOW = 0.5  # over which an amplitude is taken [s]
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Hunting:
     """A run at falling speed.
 
@@ -36,6 +36,8 @@ class Hunting:
     speed: Array
     amplitude: Array
     critical: float
+
+    __repr__ = brief
 
 
 def fall(

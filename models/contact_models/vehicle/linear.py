@@ -15,7 +15,7 @@ from functools import partial
 import numpy as np
 from numpy.typing import NDArray
 
-from contact.arrays import Array
+from contact.arrays import Array, brief
 from contact.core import pack
 from contact.errors import ContactError
 from .kernels import motion
@@ -32,7 +32,7 @@ _LOADS = ("longitudinal", "lateral", "vertical", "moment_x", "moment_y", "moment
 NOISE = 0.02
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Mode:
     """A mode of a vehicle.
 
@@ -48,6 +48,8 @@ class Mode:
     damping: float
     growth: float
     shape: NDArray[np.complex128]
+
+    __repr__ = brief
 
 
 def coordinates(simulation: Simulation, held: tuple[str, ...] = ()) -> list[tuple[int, int]]:

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from contact.arrays import Array
+from contact.arrays import Array, brief
 from contact.errors import ContactError, require_number, suggestion
 
 
@@ -192,6 +192,8 @@ class Realisation:
     amplitude: Array
     wavenumber: Array
     phase: Array
+
+    __repr__ = brief
 
     def at(self, s: float) -> tuple[float, float]:
         """Return lateral position [m] and slope [-] at the distance `s` [m]."""
