@@ -103,13 +103,11 @@ class Host:
         self.prefix = [] if system == "linux64" else ["wine"]
         self.environment = os.environ | {"WINEDEBUG": "-all"}
 
-    def __call__(self, command: str, *arguments: object, stdin: str | None = None, before: tuple[str, ...] = ()) -> str:
+    def __call__(self, command: str, *arguments: object, before: tuple[str, ...] = ()) -> str:
         """Run a command of the host and return its output. The first argument is a number."""
         given = (self.library, self.guid, self.resources if self.fmi2 else path_of(self.resources))
         words = [*before, *self.prefix, self.program, *given, command, *(arguments or (0,))]
-        done = subprocess.run(
-            list(map(str, words)), input=stdin, capture_output=True, text=True, timeout=3000, env=self.environment
-        )
+        done = subprocess.run(list(map(str, words)), capture_output=True, text=True, timeout=3000, env=self.environment)
         assert done.returncode == 0, done.stdout[-3000:] + done.stderr[-3000:]
         return done.stdout
 
@@ -130,18 +128,6 @@ class Host:
         done = subprocess.run(list(map(str, given)), capture_output=True, text=True, timeout=3000)
         assert done.returncode == 0, done.stdout[-3000:] + done.stderr[-3000:]
         return done.stdout
-
-    def solve(self, cases: Iterable[Mapping[str, float]], outputs: Sequence[str]) -> np.ndarray:
-        """Return `outputs` of the FMU after one step from the start, one row for each case (input values by name)."""
-        table = models(POINTS)[0].table
-        names = [scalar.name for scalar in table.scalars]
-        lines = []
-        for case in cases:
-            kinds = ("i" if isinstance(value, int) else "r" for value in case.values())
-            words = (f"{names.index(n)} {k} {float(v)!r}" for (n, v), k in zip(case.items(), kinds, strict=True))
-            lines.append(f"{len(case)} {' '.join(words)}")
-        rows = np.loadtxt(self("cases", stdin="\n".join(lines)).splitlines(), ndmin=2)
-        return rows[:, [names.index(name) - names.index("force.x") for name in outputs]]
 
 
 def compile_program(command: Sequence[str], platform: str, sources: Sequence[Path], program: Path) -> None:

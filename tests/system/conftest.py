@@ -161,12 +161,6 @@ def host(hosts):
 
 
 @pytest.fixture(scope="session")
-def windows(hosts):
-    """Return the C host of WheelRailContact on Windows, under Wine."""
-    return hosts("win64", NAME)
-
-
-@pytest.fixture(scope="session")
 def host_fmi3(native_fmi3_folder, tmp_path_factory):
     """Return the C host for FMI 3.0 on Linux."""
     return Host("x86_64-linux", tmp_path_factory.mktemp("linux"), native_fmi3_folder)

@@ -93,7 +93,6 @@ int main(int n_arguments, char **arguments)
     else if (!strcmp(command, "log_categories")) log_categories();
     else if (!strcmp(command, "threads")) threads();
     else if (!strcmp(command, "soak")) soak(number, atoi(path));
-    else if (!strcmp(command, "cases")) cases();
     else if (!strcmp(command, "two_libraries") && n_arguments > 8)
         two_libraries(library, path, arguments[7], arguments[8]);
     else if (!strcmp(command, "first_step")) first_step(begin);

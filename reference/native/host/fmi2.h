@@ -44,10 +44,9 @@ void fuzz(int n);
 void status_functions(void);
 void log_categories(void);
 
-/* runs.c: many steps, many instances, cases from standard input */
+/* runs.c: many steps, many instances */
 void threads(void);
 void soak(int cycles, int steps);
-void cases(void);
 void two_libraries(void *library, const char *path, const char *its_guid, const char *its_resources);
 
 /* speed.c */

@@ -1,4 +1,4 @@
-/* Many instances, many steps, and cases from standard input. */
+/* Many instances, and many steps. */
 #include "fmi2.h"
 
 #ifndef _WIN32
@@ -138,30 +138,5 @@ void soak(int cycles, int steps)
     grown = resident() - before;
     printf("%ld bytes in %d steps\n", grown, steps);
     check(grown < 1 << 16, "memory", "of steps grows");
-    FreeInstance(c);
-}
-
-/* ---------------------------------------------------------------- cases */
-
-/* Solve cases from standard input: the number of values, then reference, kind (r or i) and value of each. Print all outputs. */
-void cases(void)
-{
-    int n;
-    fmi2Component c = make(fmi2CoSimulation, quiet);
-    while (scanf("%d", &n) == 1) {
-        Reset(c);
-        for (int i = 0; i < n; i++) {
-            unsigned r;
-            char type;
-            double value;
-            if (scanf("%u %c %lf", &r, &type, &value) != 3) exit(2);
-            check((type == 'r' ? set_real(c, r, value) : set_integer(c, r, (int)value)) == fmi2OK, "set", "a value");
-        }
-        EnterInitializationMode(c);
-        ExitInitializationMode(c);
-        check(DoStep(c, 0.0, 1e-3, fmi2True) <= fmi2Warning, "step", "of a case");
-        for (fmi2ValueReference r = RESULT; r < N_VALUES; r++) printf("%.17g ", any(c, r));
-        printf("\n");
-    }
     FreeInstance(c);
 }

@@ -1,7 +1,7 @@
 /* A C host that executes commands from standard input: script LIBRARY GUID KIND RESOURCES… (0 model exchange, 1 co-simulation).
  * It makes an instance for each location of the resources, and goes on with the last one.
- * Each line is a letter, a value reference or a count, and numbers: s REFERENCE VALUE sets a Real, g REFERENCE prints it,
- * d TIME STEP does a step, t TIME sets the time. i initialises; parameters are set before it. */
+ * Each line is a letter, a value reference or a count, and numbers: s REFERENCE VALUE sets a Real, n an Integer,
+ * g REFERENCE prints a Real, d TIME STEP does a step, t TIME sets the time. i initialises; parameters are set before it. r resets. */
 #include "common.h"
 #include "fmi2FunctionTypes.h"
 
@@ -29,6 +29,8 @@ int main(int n_arguments, char **arguments)
     FIND(fmi2ExitInitializationModeTYPE, ExitInitializationMode);
     FIND(fmi2EnterContinuousTimeModeTYPE, EnterContinuousTimeMode);
     FIND(fmi2SetRealTYPE, SetReal);
+    FIND(fmi2SetIntegerTYPE, SetInteger);
+    FIND(fmi2ResetTYPE, Reset);
     FIND(fmi2GetRealTYPE, GetReal);
     FIND(fmi2DoStepTYPE, DoStep);
     FIND(fmi2SetTimeTYPE, SetTime);
@@ -44,6 +46,7 @@ int main(int n_arguments, char **arguments)
     char letter;
     while (scanf(" %c", &letter) == 1) {
         unsigned n = 0;
+        int whole = 0;
         double a = 0.0, b = 0.0;
         if (letter == 'i') {
             DO(SetupExperiment(c, fmi2False, 0.0, 0.0, fmi2False, 0.0));
@@ -52,6 +55,10 @@ int main(int n_arguments, char **arguments)
             if (atoi(arguments[3]) == fmi2ModelExchange) DO(EnterContinuousTimeMode(c));
         } else if (letter == 's' && scanf("%u %lf", &n, &a) == 2) {
             DO(SetReal(c, &n, 1, &a));
+        } else if (letter == 'n' && scanf("%u %d", &n, &whole) == 2) {
+            DO(SetInteger(c, &n, 1, &whole));
+        } else if (letter == 'r') {
+            DO(Reset(c));
         } else if (letter == 'g' && scanf("%u", &n) == 1) {
             DO(GetReal(c, &n, 1, &a));
             printf("%.17g\n", a);
