@@ -4,14 +4,13 @@ import hashlib
 import os
 import shutil
 import subprocess
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Sequence
 from importlib.metadata import version
 from pathlib import Path
 from typing import Any
 from urllib.parse import unquote, urlsplit
 
 import fmpy
-import numpy as np
 
 from contact.compile.linking import OF_WINDOWS, WITHOUT_MINGW, compiler, run
 from contact.core import checkout
