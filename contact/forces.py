@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from contact.arrays import Array, broadcast, require_aligned, require_numbers
+from contact.arrays import broadcast, require_aligned, require_numbers
 from contact.core import pack
 from contact.errors import ContactError, require_flag, require_integer
 from contact.friction import Friction
@@ -30,6 +30,7 @@ from contact.kernels.records import RESULT
 from contact.kernels.solver import derive_contact
 from contact.registry import DEFAULT_NORMAL, DEFAULT_TANGENTIAL, lookup
 from contact.results import Forces, Jacobian, doubt_answer
+from contact.results.later import arrays_of
 from contact.solver import require_conformal, require_resolution
 
 _CHUNK = 256
@@ -172,9 +173,6 @@ def forces(
         with ThreadPoolExecutor(pieces) as pool:
             list(pool.map(work, (range(k * _CHUNK, count, pieces * _CHUNK) for k in range(pieces))))
 
-    def column(name: str) -> Array:
-        return np.ascontiguousarray(results[name]).reshape(shape)
-
     if count:
         for name in ("N", "gap_error", "bend", "beyond"):
             worst = int(results[name].argmax())
@@ -182,20 +180,10 @@ def forces(
             doubt_answer(told, method.gap_limit, conformal, " in an array", **{name: float(results[name][worst])})
         least_true = max(separations, key=lambda one: one.fit_error)
         doubt_answer(least_true.told, fit_error=least_true.fit_error)
-    area = column("area")
-    slip_ratio = np.divide(column("slip_area"), area, out=np.zeros(shape), where=area > 0.0)
+    slip_ratio = np.divide(results["slip_area"], results["area"], out=np.zeros(count), where=results["area"] > 0.0)
     return Forces(
-        Fx=column("Fx"),
-        Fy=column("Fy"),
-        Mz=column("Mz"),
-        N=column("N"),
-        approach=column("approach"),
-        max_pressure=column("pmax"),
-        area=area,
-        slip_ratio=slip_ratio,
-        power_per_metre=column("power"),
-        status=results["status"].reshape(shape),
-        gap_error=column("gap_error"),
+        **arrays_of(Forces, results, shape),
+        slip_ratio=slip_ratio.reshape(shape),
         jacobian=None if slopes is None else Jacobian(slopes.reshape(*shape, ROWS, COLUMNS), load_name),
     )._with_inputs({name.removeprefix("creepage."): values for name, values in columns.items()})
 

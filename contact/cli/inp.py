@@ -101,9 +101,10 @@ def inp(
     console = Console()
     if not out and compare is None:
         _show(rows, signs, console)
-    for reason, count in Counter(result.refused for result in results if result.refused).items():
-        first = next(result for result in results if result.refused == reason)
-        typer.echo(f"contact: refused ({reason}): {count} of {len(results)} cases, first: {first.message}", err=True)
+    told = [(f"refused ({one.refused})" if one.refused else one.status, one.message) for one in results if one.message]
+    for kind, count in Counter(kind for kind, _ in told).items():
+        first = next(message for other, message in told if other == kind)
+        typer.echo(f"contact: {kind}: {count} of {len(results)} cases, first: {first}", err=True)
     typer.echo(f"{len(results)} cases in {time.perf_counter() - start:.2f} s", err=True)
     if printed is not None:
         differences = files.compare(results, printed)

@@ -47,7 +47,7 @@ class Result:
     refused : str
         Name of the reason in `contact.inp.REASONS`, empty if the case ran.
     message : str
-        Why it was refused.
+        Why it was refused, or why its numbers are not to be trusted.
     seconds : float
         Time of the case [s].
     """

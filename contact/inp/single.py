@@ -249,11 +249,12 @@ def _result(case: Case, contact: Transient, ground: Bed, solution: GridSolution,
     values["CETA"] = turned * s.creepage.lateral + case["CPHI"] * case["SPINXO"]
     if digits["H"]:
         values |= temperature(case, s)
-    status = s.status
-    if status is Status.OUT_OF_RANGE:  # the ring around the grid never touches
-        status = Status.OK
+    status, message, p = s.status, "", contact.pressure[1:-1, 1:-1]
+    if (p.shape[0] > 1 and p[[0, -1]].any()) or (p.shape[1] > 1 and p[:, [0, -1]].any()):
+        status = Status.OUT_OF_RANGE
+        message = f"{case.place}: the contact reaches the end of the grid of MX × MY elements, and is cut off there"
     patch = PatchResult(values, replace(s, status=status), _fields(case, contact, ground, s, sign) if fields else {})
-    return Result(case, (patch,) if inside.any() else (), {}, status.name.lower().replace("_", " "))
+    return Result(case, (patch,) if inside.any() else (), {}, status.name.lower().replace("_", " "), "", message)
 
 
 def _fields(case: Case, contact: Transient, ground: Bed, s: GridSolution, sign: float) -> dict[str, Any]:

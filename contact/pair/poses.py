@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -23,6 +22,7 @@ from contact.kernels.enumerations import Height
 from contact.kernels.records import GIVEN, LARGEST_ANGLE, TOTAL
 from contact.pair.wheel_rail import WheelRailPair
 from contact.results import Status
+from contact.results.later import arrays_of
 from contact.view.tables import ArrayOfResults
 
 _CHUNK = 64  # poses between two reports of progress
@@ -61,7 +61,6 @@ class PoseForces(ArrayOfResults):
 
 
 _FLOATS = [name for name in TOTAL.names or () if TOTAL[name].kind == "f"]
-_OTHER_NAMES = {"max_pressure": "pmax", "power_per_metre": "power"}
 
 
 def over_poses(
@@ -199,7 +198,5 @@ def over_poses(
     else:
         with ThreadPoolExecutor(count) as pool:
             list(pool.map(work, range(count)))
-    names = {name: _OTHER_NAMES.get(name, name) for name in PoseForces.__dataclass_fields__}
-    made: dict[str, Any] = {name: np.ascontiguousarray(found[of]).reshape(shape) for name, of in names.items()}
     inputs = {name.rpartition(".")[2]: values for name, values in columns.items()}
-    return PoseForces(**made)._with_inputs({**inputs, height: limited})
+    return PoseForces(**arrays_of(PoseForces, found, shape))._with_inputs({**inputs, height: limited})

@@ -18,8 +18,7 @@ from contact.inputs.creepage import Creepage
 from contact.kernels.records import CONTACT, MOTION, TOTAL
 from contact.kernels.resultants import add_patch, compare_forces
 from contact.results import PairJacobian, Solution, Status
-from contact.results.later import STATES, MadeLater, reader
-from contact.results.solution import RENAMED
+from contact.results.later import RENAMED, STATES, MadeLater, reader
 from contact.view.notebook import beside, table
 from contact.view.tables import Table
 

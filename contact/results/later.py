@@ -7,12 +7,25 @@ from collections.abc import Callable
 from typing import Any, Self
 
 import numpy as np
+from numpy.typing import NDArray
 
 from contact.kernels.enumerations import Status
 from contact.view.tables import Tabular
 
 #: Value of the member `status` → the status.
 STATES = {int(status): status for status in Status}
+#: Member of the records RESULT and TOTAL → attribute of a solution, for the numbers that are called otherwise.
+RENAMED = {"pmax": "max_pressure", "power": "power_per_metre", "stiffness": "normal_stiffness"}
+
+
+def arrays_of(kind: Any, records: NDArray[np.void], shape: tuple[int, ...]) -> dict[str, NDArray[Any]]:
+    """Return the members of records of which `kind`, a dataclass, has attributes: attribute → array of this shape."""
+    names = {RENAMED.get(member, member): member for member in records.dtype.names or ()}
+    return {
+        name: np.ascontiguousarray(records[member]).reshape(shape)
+        for name, member in names.items()
+        if name in kind.__dataclass_fields__
+    }
 
 
 def reader(dtype: np.dtype) -> struct.Struct:

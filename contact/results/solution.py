@@ -25,15 +25,13 @@ from contact.kernels.records import CASE, RESULT
 from contact.kernels.rows import Field, Strip
 from contact.registry import methods
 from contact.results.jacobian import Jacobian
-from contact.results.later import STATES, MadeLater, reader
+from contact.results.later import RENAMED, STATES, MadeLater, reader
 from contact.results.pressure import pressure_at, sketch
 from contact.view.notebook import beside, table
 from contact.view.tables import Table
 
 Records = NDArray[np.void]
 
-#: Member of the records RESULT and TOTAL → attribute of a solution, for the numbers that are called otherwise.
-RENAMED = {"pmax": "max_pressure", "power": "power_per_metre", "stiffness": "normal_stiffness"}
 _UNTOLD = "edges", "limited", "touch", "status"
 _MEMBERS = list(RESULT.names or ())
 #: Attributes of a solution that are members of the kernel's record, and what picks them from its numbers.

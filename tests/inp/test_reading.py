@@ -57,7 +57,7 @@ def test_values_are_in_si_and_carry_over(tmp_path):
     assert first["CPHI"] == pytest.approx(0.2, rel=1e-15)
     assert first["VELOC"] == second["VELOC"] == 30.0
     assert first["GG1"] == 82e9
-    assert first["UDB"] == pytest.approx((0.8, 0.0, 2.1, 0.0, 0.0, 0.0), rel=1e-15)
+    assert first["UDB"] == pytest.approx((4.0, 0.0, 10.5, 0.0, 0.0, 0.0), rel=1e-15)
     assert (first["SPINXO"], second["SPINXO"], second["SPINYO"]) == (0.0, 1.5e-3, 2.5e-3)
     assert first.lines["FN"] == 7
     assert second.lines["FN"] == 20

@@ -59,10 +59,10 @@ def test_unlike_cylinders_rolling_backwards_are_contacts(tmp_path):
 
 
 def test_rolling_backwards_is_rolling_forwards_turned(tmp_path):
-    text = files.CONTACT.replace("0.0008 0.0 0.0021   0.0", "0.0008 0.0 0.0021 0.001").replace(
+    text = files.CONTACT.replace("0.0040 0.0 0.0105   0.0", "0.0040 0.0 0.0105 0.001").replace(
         "0.0 0.0    ", "0.002 0.0  "
     )
-    turned = text.replace("   0.0     0.5   30d3 ", "   180d  0.5   30d3 ").replace("0.0021 0.001", "0.0021 -0.001")
+    turned = text.replace("   0.0     0.5   30d3 ", "   180d  0.5   30d3 ").replace("0.0105 0.001", "0.0105 -0.001")
     turned = turned.replace("0.002 0.0  ", "-0.002 0.0  ").replace("-.001   0.0   .2-03", ".001   0.0   .2-03")
     ahead, back = run(tmp_path, text)[0].patches[0].values, run(tmp_path, turned)[0].patches[0].values
     for name in ("FX", "FY"):
@@ -121,6 +121,15 @@ def test_what_cannot_run_is_refused_by_a_named_reason(tmp_path, old, new, reason
         assert result.rows("contact")[0]["refused"] == reason
 
 
+def test_a_contact_that_its_grid_cuts_off_is_out_of_range_with_a_reason(tmp_path):
+    for old, new in (("20 12  -8.0", "8 12  -3.2"), ("20 12  -8.0 = -4.8", "20 12  -8.0 = -1.6")):
+        first, *_ = run(tmp_path, files.CONTACT.replace(old, new))
+        assert first.status == "out of range"
+        assert "reaches the end of the grid" in first.message
+    first, *_ = run(tmp_path, files.CONTACT)
+    assert (first.status, first.message) == ("ok", "")
+
+
 def test_cases_that_continue_a_refused_case_are_refused(tmp_path):
     text = files.CONTACT.replace("  022020     L-D-C-M-Z-E", "  023020", 1)
     text = text.replace("  203100\n  100000", "  001100\n  100000")
@@ -137,7 +146,9 @@ def test_damaged_files_end_in_a_result_or_one_line(tmp_path):
             told += "\n" not in str(error)
             continue
         for result in results:
-            assert result.refused in REASONS or (result.refused == "" and result.message == "")
+            assert result.refused in REASONS or (
+                result.refused == "" and bool(result.message) == (result.status == "out of range")
+            )
             assert "\n" not in result.message
             for patch in result.patches:
                 assert all(np.isfinite(value) for value in patch.values.values())
