@@ -90,9 +90,9 @@ def half_space(case: tuple[int, Any, int]) -> tuple[float, float, float]:
     return s.Fx, s.Fy, s.Mz
 
 
-def reference_forces(d: Cases, elements: int = ELEMENTS) -> Array:
+def reference_forces(d: Cases) -> Array:
     """Return Fx/(mu N), Fy/(mu N) and Mz/(mu N c) of the half space, shape (n, 3)."""
-    jobs = [(int(k), tuple(w.tolist()), elements) for k, w in zip(d.ellipse, d.creepage.T, strict=True)]
+    jobs = [(int(k), tuple(w.tolist()), ELEMENTS) for k, w in zip(d.ellipse, d.creepage.T, strict=True)]
     with ProcessPoolExecutor() as pool:
         return scaled(d, np.array(list(pool.map(half_space, jobs, chunksize=20))))
 

@@ -27,9 +27,9 @@ SPEED = 2.0 * math.pi * REVOLUTIONS * RADIUS
 HALF_LENGTH = PEAK * RADIUS / STEEL.contact_modulus
 
 
-def largest_rise(heat: float, n: int = 400) -> float:
+def largest_rise(heat: float) -> float:
     """Return the largest temperature rise [K] when `heat` [W] is released in proportion to Hertz's pressure."""
-    edges = HALF_LENGTH * np.cos(np.arange(n + 1) * math.pi / n)
+    edges = HALF_LENGTH * np.cos(np.arange(401) * math.pi / 400)
     middle = 0.5 * (edges[:-1] + edges[1:]) / HALF_LENGTH
     flux = heat / (0.5 * math.pi * HALF_LENGTH * WIDTH) * np.sqrt(1.0 - middle**2)
     return float(heating(flux, edges, SPEED, Thermal()).max())

@@ -163,7 +163,7 @@ def plain(text: str) -> str:
     return text.translate(_PLAIN)
 
 
-def toml(path: str | PathLike[str], name: str = "path") -> dict[str, Any]:
+def toml(path: str | PathLike[str]) -> dict[str, Any]:
     """Return the tables of a TOML file. Outside texts and remarks, typographic signs are taken for the plain ones.
 
     Raises
@@ -171,7 +171,7 @@ def toml(path: str | PathLike[str], name: str = "path") -> dict[str, Any]:
     ContactError
         If the file cannot be read or is not TOML. The message has line and column.
     """
-    return toml_of(read(path, name), str(path))
+    return toml_of(read(path), str(path))
 
 
 def toml_of(text: str, where: str) -> dict[str, Any]:

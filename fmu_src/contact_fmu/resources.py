@@ -31,8 +31,8 @@ def pack(magic: bytes, rows: Array, most: int = MOST_POINTS) -> bytes:
     return magic + struct.pack("<Q", checksum(content)) + content
 
 
-def unpack(resource: bytes, rows: int, fault: str, most: int = MOST_POINTS) -> Array:
-    """Return the rows of a resource, of at most `most` points.
+def unpack(resource: bytes, rows: int, fault: str) -> Array:
+    """Return the rows of a resource, of at most `MOST_POINTS` points.
 
     Raises
     ------
@@ -43,7 +43,7 @@ def unpack(resource: bytes, rows: int, fault: str, most: int = MOST_POINTS) -> A
     if len(content) < 8 or struct.unpack("<Q", resource[8:16]) != (checksum(content),):
         raise ContactError(f"{fault}: it is damaged or was not made by contact_fmu.resources")
     (n,) = struct.unpack("<q", content[:8])
-    if not 4 <= n <= most or len(content) != 8 + 8 * rows * n:
+    if not 4 <= n <= MOST_POINTS or len(content) != 8 + 8 * rows * n:
         raise ContactError(f"{fault}: it says {n} points")
     numbers = np.frombuffer(content[8:], "<f8").reshape(rows, -1)
     if not np.isfinite(numbers).all():

@@ -1,28 +1,15 @@
-"""Convert TOML files to dataclasses. Messages name unknown keys, missing keys and wrong types."""
+"""Convert tables of TOML to dataclasses. Messages name unknown keys, missing keys and wrong types."""
 
 from __future__ import annotations
 
 import re
 import types
 from dataclasses import MISSING, fields, is_dataclass
-from os import PathLike
 from typing import Any, Literal, TypeVar, Union, get_args, get_origin, get_type_hints
 
 from contact.errors import ContactError, suggestion
-from contact.reading import text
 
 Kind = TypeVar("Kind")
-
-
-def read_table(path: str | PathLike[str]) -> dict[str, Any]:
-    """Return the tables of a TOML file.
-
-    Raises
-    ------
-    ContactError
-        If the file cannot be read or is not TOML. The message has line and column.
-    """
-    return text.toml(path)
 
 
 def build(kind: type[Kind], table: object, where: str) -> Kind:

@@ -14,10 +14,11 @@ import numpy as np
 from contact.errors import ContactError, require_number
 from contact.geometry.profile import Profile
 from contact.inputs.material import STEEL
+from contact.reading.text import toml
 from ..runs import scenario
 from ..runs.origin import hashed
 from ..runs.scenario import Scenario
-from ..toml import build, read_table
+from ..toml import build
 from .flange import Flange
 
 _GRAVITY = 9.81  # [m/s²]
@@ -215,7 +216,7 @@ def read(path: str | PathLike[str]) -> ScenarioSet:
         As `scenario.read`, and if scenarios that share wheels or rails differ in what describes them.
     """
     path = Path(path)
-    declared = build(Declaration, read_table(path), path.name)
+    declared = build(Declaration, toml(path), path.name)
     scenarios = tuple(
         scenario.read(path.parent / share.file).limited(declared.pressure_limit) for share in declared.scenarios
     )

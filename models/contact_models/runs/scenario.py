@@ -20,9 +20,10 @@ from contact.geometry.profile import Kind, Profile
 from contact.geometry.surfaces import WheelSurface
 from contact.inputs.material import STEEL, Material
 from contact.inputs.options import N_ELEMENTS, N_STRIPS
+from contact.reading.text import toml
 from contact.registry import DEFAULT_NORMAL, DEFAULT_TANGENTIAL, lookup
 from contact.solver import require_resolution
-from ..toml import build, read_table
+from ..toml import build
 from ..vehicle.declared import SIDES, VehicleDeclaration
 from ..vehicle.declared import find as find_vehicle
 from ..vehicle.declared import read as read_vehicle
@@ -338,7 +339,7 @@ def read(path: str | PathLike[str]) -> Scenario:
         If the file is not TOML, has unknown or missing keys, or values of the wrong type or outside their range. The message
         names file, key, value and allowed values.
     """
-    return from_table(read_table(path), Path(path))
+    return from_table(toml(path), Path(path))
 
 
 def from_table(table: dict[str, Any], path: Path) -> Scenario:

@@ -11,7 +11,8 @@ from typing import Any, TypeVar
 from contact.errors import ContactError, require_number, suggestion
 from contact.geometry.wheelset import Side
 from contact.inputs.options import FLANGE_BACK, GAUGE, GAUGE_POINT, RADIUS
-from ..toml import build, read_table
+from contact.reading.text import toml
+from ..toml import build
 
 #: Folder of the vehicles that are included, one file each.
 INCLUDED = Path(__file__).parent / "included"
@@ -284,7 +285,7 @@ def read(path: str | PathLike[str]) -> VehicleDeclaration:
         If there is no such vehicle, or the file is not as this module says. The message names file, key and value.
     """
     place = find(path)
-    return build(VehicleDeclaration, read_table(place), place.name)
+    return build(VehicleDeclaration, toml(place), place.name)
 
 
 def find(path: str | PathLike[str]) -> Path:

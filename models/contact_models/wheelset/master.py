@@ -110,14 +110,12 @@ class History:
         ]
         return beside(table((), rows, "wheelset"), drawn.svg())
 
-    def write_csv(self, path: str | PathLike[str], columns: Sequence[str] = COLUMNS, every: int = 1) -> None:
-        """Write every `every`-th communication point as CSV, with a header of names."""
+    def write_csv(self, path: str | PathLike[str]) -> None:
+        """Write the communication points as CSV, with a header of names."""
         with open(path, "w", newline="", encoding="utf-8") as file:
             writer = csv.writer(file)
-            writer.writerow(columns)
-            writer.writerows(
-                [f"{v:.9g}" for v in row] for row in zip(*(self[c][::every] for c in columns), strict=True)
-            )
+            writer.writerow(COLUMNS)
+            writer.writerows([f"{v:.9g}" for v in row] for row in self.values)
 
 
 def run(
