@@ -161,10 +161,10 @@ def compile_once(by: Sequence[str], words: Sequence[object], sources: Path, made
     shutil.copy(kept, made)
 
 
-def sanitized(platform: str, folder: Path, unzipped: Path, name: str = NAME) -> Host:
+def sanitized(folder: Path, unzipped: Path, name: str) -> Host:
     """Return a host for Linux, and the FMU compiled from its sources, kernels included, both with sanitizers."""
     # two instances for each thread: with sanitizers 64 of them take half a minute
-    host = Host(platform, folder, unzipped, name, (*SANITIZED, "-DN_INSTANCES=16"))
+    host = Host("linux64", folder, unzipped, name, (*SANITIZED, "-DN_INSTANCES=16"))
     host.library = folder / "sanitized.so"
     flags = ("-std=c11", "-O0", "-ffp-contract=off", "-w", "-fPIC", "-shared", f"-I{unzipped / 'sources'}")
     # the sources write all names with that of the FMU, those of FMI only if a host asks for it

@@ -130,7 +130,7 @@ def test_sanitizers_find_nothing_in_the_sources(hosts, name, tmp_path):
     if subprocess.run([*SANITIZED, "-x", "c", "-", "-o", tmp_path / "a"], input=b"int main(void) {}").returncode:
         pytest.skip("SANITIZERS FIND NOTHING: gcc or its sanitizers are not installed (apt-get install gcc)")
     usual = hosts("linux64", name)
-    host = sanitized("linux64", tmp_path, usual.library.parents[2], name)
+    host = sanitized(tmp_path, usual.library.parents[2], name)
     if name in ROLES:
         for command in COMMANDS:
             host(command, 5)
