@@ -237,48 +237,15 @@ def require_layer(layer: object, tangential: Method) -> None:
         raise ContactError(f"layer: tangential = {tangential.name!r} has no third body; allowed: halfspace")
 
 
-_Key = tuple[str, str, int, int, Material, bool, int, tuple[float, float, float] | None]
-
-
 class _Latest(threading.local):
-    """The solvers that a thread has used last."""
+    """The solvers that a thread has used last, by their options and C11, C22, C23."""
 
     def __init__(self) -> None:
-        self.solvers: dict[_Key, Solver] = {}
+        self.solvers: dict[tuple[object, ...], Solver] = {}
 
 
 #: How many of them are kept.
 _LATEST, _MOST = _Latest(), 4
-
-
-def _lent(key: _Key) -> Solver:
-    """Lend this thread's solver for the methods, resolution, material and C11, C22, C23 of `key`; make it if needed.
-
-    Until it is back, a signal handler that calls `solve` makes another one.
-    """
-    solver = _LATEST.solvers.pop(key, None)
-    if solver is None:
-        normal, tangential, n_strips, n_elements, material, conformal, max_iterations, coefficients = key
-        solver = Solver(
-            normal=normal,
-            tangential=tangential,
-            n_strips=n_strips,
-            n_elements=n_elements,
-            material=material,
-            conformal=conformal,
-            max_iterations=max_iterations,
-        )
-        if coefficients is not None:
-            solver.calibrate(constant_table(*coefficients))
-    return solver
-
-
-def _back(key: _Key, solver: Solver) -> None:
-    """Take back a solver that was lent."""
-    solvers = _LATEST.solvers
-    solvers[key] = solver
-    while len(solvers) > _MOST:
-        del solvers[next(iter(solvers))]
 
 
 def _on_strips(
@@ -305,8 +272,21 @@ def _on_strips(
     """
     if not isinstance(separation, Separation) and isinstance(separation, Gap):
         raise ContactError(f"normal = {normal!r} needs a contact.Separation; separation = {separation!r} is on a grid")
-    key = normal, tangential, *size, material, bool(conformal), max_iterations, coefficients
-    solver = _lent(key)
+    options: dict[str, Any] = {
+        "normal": normal,
+        "tangential": tangential,
+        "n_strips": size[0],
+        "n_elements": size[1],
+        "material": material,
+        "conformal": conformal,
+        "max_iterations": max_iterations,
+    }
+    solvers, key = _LATEST.solvers, (*options.values(), coefficients)
+    solver = solvers.pop(key, None)  # until it is back, a signal handler that calls `solve` makes another one
+    if solver is None:
+        solver = Solver(**options)
+        if coefficients is not None:
+            solver.calibrate(constant_table(*coefficients))
     solver.told = getattr(separation, "told", set())  # the separation is the user's
     solver.doubted = None if doubted else set()
     try:
@@ -316,7 +296,9 @@ def _on_strips(
     finally:
         if trace:
             show(solver.trace())
-        _back(key, solver)
+        solvers[key] = solver
+        while len(solvers) > _MOST:
+            del solvers[next(iter(solvers))]
 
 
 def _patch_coefficients(
