@@ -6,10 +6,12 @@ from numpy.typing import ArrayLike
 
 from contact.arrays import Array, require_numbers
 from contact.damage._check import elementwise
-from contact.kernels.damage.energy_index import energy_index_kernel
-from contact.kernels.damage.fatigue_index import fatigue_index_kernel
-from contact.kernels.damage.stress_index import stress_index_kernel
-from contact.kernels.damage.t_gamma import t_gamma_kernel
+from contact.kernels.damage.indices import (
+    energy_index_kernel,
+    fatigue_index_kernel,
+    stress_index_kernel,
+    t_gamma_kernel,
+)
 
 
 def t_gamma(

@@ -52,6 +52,13 @@ def record(name: str, members: str) -> np.dtype:
     return _MADE[name]
 
 
+def unit_of(member: str) -> str:
+    """Return the unit of a number "record.member", "1" for none."""
+    name, _, its = member.partition(".")
+    unit = MEANING[name][its].partition("[")[2].partition("]")[0]
+    return unit.replace("-", "1") or "1"
+
+
 #: One contact problem besides its separation.
 CASE = record(
     "case",

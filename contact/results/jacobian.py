@@ -10,11 +10,11 @@ from numpy.typing import NDArray
 
 from contact.errors import ContactError
 from contact.inputs.options import MOTION
-from contact.kernels.records import GIVEN
+from contact.kernels.records import GIVEN, unit_of
 from contact.view.notebook import table
-from contact.view.units import UNITS, stated
+from contact.view.units import UNITS
 
-_UNITS = {**UNITS, **{n: stated(f"given.{member}") for n, member in zip(MOTION, GIVEN.names or (), strict=True)}}
+_UNITS = {**UNITS, **{n: unit_of(f"given.{member}") for n, member in zip(MOTION, GIVEN.names or (), strict=True)}}
 
 
 @dataclass(frozen=True, eq=False)

@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-import re
-
-from contact.kernels.records import MEANING
+from contact.kernels.records import MEANING, unit_of
 
 #: Unit → names of inputs and results that have it, besides those of the records. "1" is a pure number.
 _NAMES = {
@@ -42,17 +40,8 @@ _NAMES = {
     "Pa, 1, 1": "endurance",
     "1, m": "polygon",
 }
-
-
-def stated(member: str) -> str:
-    """Return the unit that the kernels state for a number "record.member", "1" for none."""
-    record, name = member.split(".")
-    found = re.search(r"\[(.+?)\]", MEANING[record][name])
-    return found[1].replace("-", "1") if found else "1"
-
-
 _OF_RECORDS = {
-    name: stated(f"{record}.{name}").translate(str.maketrans("23", "²³"))
+    name: unit_of(f"{record}.{name}").translate(str.maketrans("23", "²³"))
     for record in ("contact", "total", "result", "damage")
     for name, meaning in MEANING[record].items()
     if "[" in meaning

@@ -16,8 +16,7 @@ from enum import StrEnum
 from itertools import product
 
 from contact.errors import require_number
-from contact.kernels.records import MEANING
-from contact.view.units import stated
+from contact.kernels.records import MEANING, unit_of
 
 
 class Causality(StrEnum):
@@ -325,7 +324,7 @@ def _unit_of(member: str) -> str:
     """Return the unit that the kernels state for a member of a record, as FMI writes it; "1" for none."""
     if not member or member in _TURNING:
         return "rad/m" if member else "1"
-    return stated(member).replace(" ", ".")
+    return unit_of(member).replace(" ", ".")
 
 
 def _meaning_of(member: str) -> str:

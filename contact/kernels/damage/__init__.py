@@ -1,1 +1,1 @@
-"""Damage models, one per file, and the accumulation of damage on a profile."""
+"""Damage models, and the accumulation of damage on a profile."""

@@ -6,11 +6,13 @@ from contact.core import entry, kernel
 from contact.kernels.arrays import Case, Cube, Damage, DamageParameters, Matrix, Result
 from contact.kernels.damage.archard import depth_times_hardness
 from contact.kernels.damage.burstow import burstow_kernel
-from contact.kernels.damage.energy_index import energy_index_kernel
-from contact.kernels.damage.fatigue_index import fatigue_index_kernel
+from contact.kernels.damage.indices import (
+    energy_index_kernel,
+    fatigue_index_kernel,
+    stress_index_kernel,
+    t_gamma_kernel,
+)
 from contact.kernels.damage.pearce_sherratt import pearce_sherratt_kernel
-from contact.kernels.damage.stress_index import stress_index_kernel
-from contact.kernels.damage.t_gamma import t_gamma_kernel
 from contact.kernels.damage.usfd import usfd_kernel
 from contact.kernels.enumerations import TangentialFamily
 from contact.kernels.rows import DamageField, Field, Strip
