@@ -213,6 +213,18 @@ def test_a_patch_cut_off_by_the_end_of_the_data_is_out_of_range(B):
     assert inside.status is contact.Status.OK
 
 
+@pytest.mark.parametrize("n_strips", [20, 160])
+def test_data_that_end_within_the_patch_are_told_where_the_start_ends_before_them(n_strips):
+    """The status was OK, with 11.9 GPa at the end of the data (20 strips) and 94.8 (160); ANALYN's patch ends at 6.4 mm."""
+    y = np.linspace(-12e-3, 12e-3, 481)
+    g = y**2 + 1e-5 * np.cos(2.0 * np.pi * (y / 4e-3 + 0.5))
+    whole, cut = (contact.Separation(y[: n + 1], g[: n + 1] - g.min(), 1.1) for n in (480, 384))  # to 12 and to 7.2 mm
+    options = {"load": 100e3, "n_strips": n_strips, "throw": False}
+    assert contact.solve(whole, NO_CREEP, **options).status is contact.Status.OK
+    assert contact.solve(cut, NO_CREEP, normal="analyn", **options).status is contact.Status.OK
+    assert contact.solve(cut, NO_CREEP, **options).status is contact.Status.OUT_OF_RANGE
+
+
 def test_the_end_strips_of_every_panel_lose_the_least_length_of_an_earlier_call():
     """It was read at the ends of the second of two panels, where another contact had left it."""
     n, two = 6, 2

@@ -281,13 +281,16 @@ def _solve(sep, case, load, brief, workspace, result):
     count = _report(problem, case.load_kind != LoadKind.APPROACH, state.approach, n_panels)
     # parts of strips would make up for the pressure that was taken away
     result.pmax = 0.0 if lone or levelled or brief else largest_pressure(count, problem)
-    if not rests and result.status != Status.OUT_OF_RANGE:
+    low, high = panels[0], panels[1]
+    for p in range(1, n_panels):
+        low, high = min(low, panels[2 * p]), max(high, panels[2 * p + 1])
+    margin = _CUT_OFF * (high - low)  # ends come close to the end of the data, but do not reach it
+    if low < sep.y[0] + margin or high > sep.y[sep.y.size - 1] - margin:
+        result.status = Status.OUT_OF_RANGE  # ANALYN's patch, the start, may have ended before
+    elif not rests and result.status != Status.OUT_OF_RANGE:
         result.status = Status.NOT_CONVERGED
-    elif result.status == Status.OUT_OF_RANGE:
-        low, high = panels[0], panels[2 * n_panels - 1]
-        margin = _CUT_OFF * (high - low)  # ends come close to the end of the data, but do not reach it
-        if low > sep.y[0] + margin and high < sep.y[sep.y.size - 1] - margin:
-            result.status = Status.OK
+    else:
+        result.status = Status.OK
     return count
 
 
