@@ -141,6 +141,12 @@ class Entry:
         """To numba, which compiles kernels that call this one, an entry is the compiled function itself."""
         return self.dispatcher._numba_type_
 
+    def __reduce__(self) -> str:
+        return self.function.__qualname__
+
+    def __repr__(self) -> str:
+        return f"<kernel {self.function.__module__}.{self.function.__qualname__}>"
+
     @property
     def symbol(self) -> str:
         """Name of the entry in the library."""

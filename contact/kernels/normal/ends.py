@@ -148,8 +148,8 @@ def end_move(vectors, n, first, step, cosines, frozen, calm, skewed):
 
     `first` is the strip at this end, `step` the step to its neighbour. The share of the first pressure in the rule replaces
     that pressure in Vector.END. A `frozen` end keeps its place, and idle strips with it, unless the half lengths are `calm` and
-    the pressure rises towards it, as at the corner of a punch or in the last strip alone. Only to the corner of a punch, and not
-    in `skewed` patches, it may go as far as the rule tells: elsewhere that is a direction, and the gap tells what lies there.
+    the pressure rises towards it, as at the corner of a punch or in the last strip alone. It goes as far as the rule tells only
+    to the corner of a punch in patches that are not `skewed`: elsewhere that is a direction, and the gap tells what lies there.
     """
     p0, p1, p2 = vectors[Vector.END, first], vectors[Vector.P, first + step], vectors[Vector.P, first + 2 * step]
     idle = idle_strips(vectors, n, first, step)
