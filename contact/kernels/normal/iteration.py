@@ -16,6 +16,7 @@ import math
 from typing import Any, NamedTuple
 
 from contact.core import kernel
+from contact.kernels.normal.best import keep_best, take_best
 from contact.kernels.normal.brackets import damp_turns, keep_between, note_sides
 from contact.kernels.normal.descent import COARSE, descend, descend_offsets, has_one_run, straightening
 from contact.kernels.normal.ends import end_moves, go_far, have_idle_part, is_far
@@ -171,10 +172,10 @@ def _can_descend(problem, state):
 def _fill_step(problem, state):
     """Fill the step s of all unknowns.
 
-    s = -J⁻¹ r with the Jacobian J of the ellipse with a panel's a/b, from iteration 22 (18) on and with idle strips between
-    loaded ones s = r. Both fixed-point steps are mixed with the last ones by Anderson's method. The mixing begins anew where
-    the unknowns or the kind of step change, and where the residual has doubled; from iteration 22 (18) on where it rises,
-    and without skew always.
+    s = -J⁻¹ r with the Jacobian J of the ellipse with a panel's a/b. s = r from iteration 22 (18) on, with idle strips between
+    loaded ones, and while that Jacobian leads round in circles. Both fixed-point steps are mixed with the last ones by
+    Anderson's method. The mixing begins anew where the unknowns or the kind of step change, and where the residual has
+    doubled; from iteration 22 (18) on where it rises, and without skew always. In circles there is none.
     """
     workspace, panels, skewed = problem.workspace, problem.panels, problem.skew > 0.0
     rule, vectors = workspace.rule, workspace.space.vectors
@@ -338,35 +339,6 @@ def accept(problem, state):
 
 
 @kernel
-def _keep_best(problem, state):
-    """Store half lengths, offsets and ends in the rows BEST of the best iterate since the ends were fixed."""
-    panels, vectors, n = problem.panels, problem.workspace.space.vectors, problem.workspace.rule.across.nodes.size
-    if state.anew != 0:
-        state.best = math.inf
-    if state.number - state.begun < FREEZE or state.cut != 0 or not state.last_error < state.best:
-        return
-    state.best = state.last_error
-    for i in range(n * state.n_panels):
-        vectors[Vector.BEST, i], vectors[Vector.OFFSET_BEST, i] = vectors[Vector.LN_A, i], vectors[Vector.OFFSET, i]
-    for p in range(state.n_panels):
-        vectors[Vector.BEST, p * n], vectors[Vector.BEST, p * n + n - 1] = panels[2 * p], panels[2 * p + 1]
-
-
-@kernel
-def _take_best(problem, state):
-    """Restore the half lengths, ends and offsets that `_keep_best` stored."""
-    panels, vectors, n = problem.panels, problem.workspace.space.vectors, problem.workspace.rule.across.nodes.size
-    for p in range(state.n_panels):
-        first, last = p * n, p * n + n - 1
-        panels[2 * p], panels[2 * p + 1] = vectors[Vector.BEST, first], vectors[Vector.BEST, last]
-        for i in range(first, last + 1):
-            vectors[Vector.LN_A, i] = vectors[Vector.BEST, min(max(i, first + 1), last - 1)]
-            vectors[Vector.OFFSET, i] = vectors[Vector.OFFSET_BEST, i]
-        vectors[Vector.ACTIVE, first : last + 1] = 1.0
-    state.error, state.load = state.best, 1.0
-
-
-@kernel
 def step(problem, state):
     """Make one iteration. Return whether it is the last one.
 
@@ -387,7 +359,7 @@ def step(problem, state):
         state.patience = state.number + 1
     _fill_step(problem, state)
     state.last_error = state.error / state.load
-    _keep_best(problem, state)
+    keep_best(problem, state, FREEZE)
     return accept(problem, state)
 
 
@@ -400,5 +372,5 @@ def finish(problem, state):
     if state.converged != 0:
         advance(n, state.n_panels, problem.panels, vectors, problem.skew > 0.0)
     elif state.n_panels > 0 and state.best * state.load < state.error:
-        _take_best(problem, state)
+        take_best(problem, state)
     state.approach = find_pressures(problem, state.approach, state.n_panels)
