@@ -287,10 +287,8 @@ def _solve(sep, case, load, brief, workspace, result):
     margin = _CUT_OFF * (high - low)  # ends come close to the end of the data, but do not reach it
     if low < sep.y[0] + margin or high > sep.y[sep.y.size - 1] - margin:
         result.status = Status.OUT_OF_RANGE  # ANALYN's patch, the start, may have ended before
-    elif not rests and result.status != Status.OUT_OF_RANGE:
-        result.status = Status.NOT_CONVERGED
     else:
-        result.status = Status.OK
+        result.status = Status.OK if rests else Status.NOT_CONVERGED
     return count
 
 
