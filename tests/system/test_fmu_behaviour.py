@@ -14,6 +14,8 @@ from fmu_instance import DISCARD, ERROR, WARNING, Instance, goes_on, recovers, r
 from thesis_case import THESIS
 
 import contact
+from contact.kernels import memory
+from contact.kernels.arrays import Size
 from contact_fmu.tables.wheel_rail_contact import table
 
 
@@ -142,6 +144,22 @@ def test_a_restored_or_serialised_state_continues_bit_by_bit(kind):
     kind.drive(fmu.initialize(), 0)
     causalities = ("input", "output", "parameter")
     goes_on(fmu, kind.open().initialize(), lambda one: (one.all(*causalities), kind.drive(one, kind.steps)))
+
+
+@pytest.mark.parametrize(("name", "starts"), [(NAME, 2), (pair_case.NAME, 1)])
+def test_a_state_has_a_second_warm_start_only_where_fields_are_computed_from_it(opened, name, starts):
+    def size(n_strips):
+        fmu = opened(name)
+        strips = {"method.normal": list(contact.methods().batched.normal).index("strip_halfspace") + 1}
+        fmu.update({**(CREEPAGES if name == NAME else pair_case.MOTION), **strips, "resolution.n_strips": n_strips})
+        fmu.initialize().step()
+        return len(fmu.fmu.serializeFMUState(fmu.fmu.getFMUState())) / 8
+
+    def start(n_strips):
+        piece = memory.memory_size(Size(n_strips, 20, 41, 1, 0))
+        return piece if name == NAME else memory.pair_memory_size(piece)
+
+    assert size(22) - size(20) == starts * (start(22) - start(20))
 
 
 def test_a_state_from_before_the_initialisation_begins_the_run_again_bit_by_bit(kind):
