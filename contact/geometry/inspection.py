@@ -72,6 +72,7 @@ class Fault(StrEnum):
     TURNED = "turned"
     FLANGE = "flange"
     FLAT = "flat"
+    PART = "not whole"
 
 
 #: Faults with which the points are no curve: `read` refuses them unless it may repair them.
@@ -167,7 +168,6 @@ def shape(points: Points, resolution: float = 0.0, scale: float = 1.0) -> list[F
 def place(points: Points, kind: Kind, scale: float = 1.0) -> list[Finding]:
     """Return a turn, and offsets from the zero that this library expects, for points in the right-side convention."""
     y, z = points.T
-    found: list[Finding] = []
     if turn := turned(points / scale, kind):
         slope = np.degrees(turn + USUAL_SLOPE[kind])
         part, usual = ("tread", "it rises by 1 to 3°") if kind == "wheel" else ("top", "it is level within 3°")
@@ -175,6 +175,7 @@ def place(points: Points, kind: Kind, scale: float = 1.0) -> list[Finding]:
             f"the {part} {'falls' if slope > 0.0 else 'rises'} by {abs(slope):.1f}° to the field side, usually {usual}"
         )
         return [Finding(Fault.TURNED, seen, f"rotated({-turn:.3g}) turns the {kind} back", points[:0])]
+    found = _part(points, kind, scale)
     if kind == "rail":
         deeper = z[-1] - z[: np.argmin(z) + 1].max()
         if deeper > _DEEPER * scale:
@@ -211,20 +212,38 @@ def place(points: Points, kind: Kind, scale: float = 1.0) -> list[Finding]:
     return found
 
 
-def turned(points: Points, kind: Kind) -> float:
-    """Return by how much a profile is turned about x [rad], positive from y towards z; 0 if it lies as usual."""
+def _middle(points: Points, kind: Kind) -> tuple[float, float, bool]:
+    """Return between which y a wheel's tread or a rail's top is judged [m], and whether a flange or a gauge face says so."""
     y, z = points.T
     if kind == "wheel":
-        middle = y[np.argmax(z)] + TIP_FROM_TAPE if has_flange(points) else 0.0
-        low, high = (middle + end for end in TREAD)
+        sure, (low, high) = has_flange(points), TREAD
+        middle = y[np.argmax(z)] + TIP_FROM_TAPE if sure else 0.0
     else:
         gauge = np.flatnonzero((z > z.min() + GAUGE_DEPTH) & (np.arange(z.size) < np.argmin(z)))
         middle, top = 0.5 * (y.min() + y.max()), int(np.argmin(z))
-        if gauge.size:
+        sure, (low, high) = gauge.size > 0, TOP
+        if sure:
             middle = y[gauge[-1]] + CROWN_FROM_GAUGE
             if z[top:].max() > z[top] + HEAD_DROP:  # the field side is there: a head may be narrower
                 middle = min(middle, 0.5 * (y[gauge[-1]] + y.max()))
-        low, high = (middle + end for end in TOP)
+    return middle + low, middle + high, sure
+
+
+def _part(points: Points, kind: Kind, scale: float) -> list[Finding]:
+    """Return a finding for a wheel or a rail whose tread or top is known in part only."""
+    low, high, sure = _middle(points / scale, kind)
+    end = float(points[:, 0].max()) / scale
+    if not sure or end > high - 0.2 * (high - low):
+        return []
+    part = "tread" if kind == "wheel" else "top"
+    seen = f"the {part} is known up to y = {_mm(end)} only, wheels and rails touch up to {_mm(high)}"
+    return [Finding(Fault.PART, seen, "measure it whole: no option fills it", points[-1:])]
+
+
+def turned(points: Points, kind: Kind) -> float:
+    """Return by how much a profile is turned about x [rad], positive from y towards z; 0 if it lies as usual."""
+    y, z = points.T
+    low, high, _ = _middle(points, kind)
     inside = (y > low) & (y < high)
     if np.count_nonzero(inside) < 5 or np.ptp(y[inside]) < 0.8 * (high - low):
         return 0.0

@@ -210,9 +210,9 @@ class Transient(OwnsArrays):
         creepage : Creepage
             Wheel minus rail over V, constant in the step.
         distance : float
-            Rolled in this step [m], positive, not longer than the grid. One element is best: much shorter steps bring wiggles of
-            the traction from element to element, longer ones have an error of first order in the distance. A `ModelWarning`
-            tells steps of more than an element and a tenth of the contact's length.
+            Rolled in this step [m], positive, not longer than the grid. One element is best: much shorter steps bring wiggles
+            of the traction from element to element, longer ones have an error of first order in the distance. A
+            `ModelWarning` tells steps of more than an element and a tenth of the contact's length.
         load, approach, force, gap :
             As for `shift`; with a force, the creepage in its direction is found.
         sliding : bool
