@@ -23,7 +23,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from contact.arrays import Array, as_array
-from contact.errors import ContactError, ModelWarning, require_number, require_pair, warn
+from contact.errors import ContactError, require_number, require_pair
 from contact.friction import Friction
 from contact.given_force import wanted_force
 from contact.halfspace.gap import Division, Gap
@@ -41,15 +41,12 @@ from contact.inputs.material import STEEL, Material
 from contact.inputs.options import APPROACH, LOAD
 from contact.inputs.separation import Separation
 from contact.instance.ownership import OwnsArrays, one_thread, within
-from contact.results import Status
+from contact.results import Status, doubt_step
 
-#: Given forces (Fx, Fy) on the wheel [N]; None where the motion is given.
-Force = float | tuple[float | None, float | None]
+Force = float | tuple[float | None, float | None]  # (Fx, Fy) on the wheel [N]; None where the motion is given
 _KEPT = ("_amount", "_gap", "_grid", "_state", "_normal", "_pressed", "distance", "speed", "friction", "law", "_local")
 #: Turns between pressure and traction of unlike bodies.
 _TURNS = 40
-#: Longest step that is not told, over the length of the contact, unless it is one element (other_contacts.md).
-_LONGEST_SHARE = 0.1
 
 
 class Transient(OwnsArrays):
@@ -138,8 +135,7 @@ class Transient(OwnsArrays):
         self._state = self._stepper.fresh()
         self._normal: Normal | None = None
         self._pressed: Any = None
-        self.distance = 0.0
-        self.told: set[str] = set()  # for what there was a ModelWarning
+        self.distance, self.told = 0.0, set[str]()  # for what there was a ModelWarning
 
     def _kept(self) -> Any:
         return {name: self.__dict__[name] for name in _KEPT}
@@ -210,9 +206,8 @@ class Transient(OwnsArrays):
         creepage : Creepage
             Wheel minus rail over V, constant in the step.
         distance : float
-            Rolled in this step [m], positive, not longer than the grid. One element is best: much shorter steps bring wiggles
-            of the traction from element to element, longer ones have an error of first order in the distance. A
-            `ModelWarning` tells steps of more than an element and a tenth of the contact's length.
+            Rolled in this step [m], positive, not longer than the grid. One element is best: much shorter steps make the
+            traction uneven, and a `ModelWarning` tells steps of more than an element and a tenth of the contact's length.
         load, approach, force, gap :
             As for `shift`; with a force, the creepage in its direction is found.
         sliding : bool
@@ -226,7 +221,7 @@ class Transient(OwnsArrays):
         step = require_number("distance", distance, 0.0, self.longest_step, open_minimum=True)
         within(self.take)(load, approach, gap)
         solution = self._step(as_creepage(creepage), step, self._coefficient(creepage), force, sliding)
-        self._doubt_step(step)
+        doubt_step(self.told, step, self._stepper.dx, int(np.count_nonzero(self._state.p.any(axis=0))))
         self.distance += step
         return solution
 
@@ -329,9 +324,8 @@ class Transient(OwnsArrays):
 
     def _coefficient(self, creepage: Creepage) -> float | None:
         """Return the coefficient of a step [-]; None where it is that of each element."""
-        if self._local:
-            return None
-        return float(self.friction.coefficient(self.speed * math.hypot(creepage.longitudinal, creepage.lateral)))
+        slip = math.hypot(creepage.longitudinal, creepage.lateral)
+        return None if self._local else float(self.friction.coefficient(self.speed * slip))
 
     @one_thread
     def take(self, load: float | None = None, approach: float | None = None, gap: Gap | None = None) -> None:
@@ -358,19 +352,6 @@ class Transient(OwnsArrays):
         if (columns, rows) != (0, 0) or gap.h.shape != old.h.shape:
             last, self._stepper = self._state, self._prepared()
             self._state = last.placed(self._stepper.fresh(), rows, columns)
-
-    def _doubt_step(self, distance: float) -> None:
-        """Tell once of a step [m] that is long against the contact."""
-        elements, length = distance / self._stepper.dx, int(np.count_nonzero(self._state.p.any(axis=0)))
-        allowed = max(1.0, _LONGEST_SHARE * length)
-        if "distance" in self.told or length == 0 or elements <= 1.001 * allowed:
-            return
-        warn(
-            f"distance = {distance:g} m is {elements:.3g} of the {length} elements of the contact's length; with more than "
-            f"{allowed:.3g} forces may be more than 0.05 of friction times load off (other_contacts.md); take one element",
-            ModelWarning,
-        )
-        self.told.add("distance")
 
     def _press(self, opening: Array | None, start: Array | None) -> Normal:
         """Return the normal solution for an opening of the gap by traction [m]; without one the last is kept."""
