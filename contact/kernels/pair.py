@@ -24,6 +24,8 @@ from contact.kernels.root import begin as begin_root
 
 #: Search of the height for a load or a vertical force: most trials, shortest bracket [m], target and accepted residual over it.
 _MOST, _SHORTEST, _TOLERANCE, _ACCEPTABLE = 20, 1e-14, 1e-9, 1e-3
+#: First guesses at most, longest step from one to the next, and ratio of forces up to which a guess is the last one but one.
+_MOST_GUESSES, _FARTHEST, _ALIKE = 3, 4.0, 2.0
 #: So many trials that do not bring the residual down to a share of it mean that the force jumps.
 _SHARE, _JUMP = 0.25, 6
 #: A trial is brief where the one before has missed the force by more than this share.
@@ -36,6 +38,9 @@ _QUICK = 8
 #: Most solutions for a load, each of which lays the patch anew, and the change of the force up to which the height may move
 #: after the last one: laid once more, 400 random patches then carried 5e-5 more or less at most, the noise of their strips.
 _MOST_LAID, _LAID = 5, 3e-4
+#: Range of the force's slope over that of a patch that is laid once, and the change of the force by a step of the height up to
+#: which steps are too small to tell this slope, and slow strips go on at given heights.
+_LEAST_STEEPER, _MOST_STEEPER, _NEAR = 0.5, 4.0, 0.1
 #: Target and accepted residual on surfaces that change along the way, the second with friction. On the edge of a fresh flat the
 #: force is not smooth in z.
 _ROUGHER, _ACCEPTABLE_ROUGH = 1e-7, 1e-2
@@ -56,7 +61,7 @@ def _begin_under(force, search, root):
     """Begin the search of the height that carries `force` [N]. Return whether the bodies lie above each other, first touch.
 
     Points of the search are depths below first touch. The third value is for `describe`. The first guess is corrected by
-    ANALYN's force there, which is right to some per cent.
+    ANALYN's force there, which is right to some per cent, and again where that is another force altogether, as on a flange.
     """
     motion = search.motion[0]
     above, touch, nodes = begin(search, motion.z)
@@ -64,9 +69,13 @@ def _begin_under(force, search, root):
         return above, touch, nodes
     size = size_of(motion)
     guess = first_depth(force, size)
-    found = carried(describe(search, touch + guess, nodes), search)
-    depth = min(guess * (force / found) ** (2.0 / 3.0), 4.0 * guess, DEEPEST * size) if found > 0.0 else guess
-    begin_root(root, depth, force ** (2.0 / 3.0) / depth, 0.0, DEEPEST * size)
+    for _ in range(_MOST_GUESSES):
+        found = carried(describe(search, touch + guess, nodes), search)
+        ratio = force / found if found > 0.0 else 1.0
+        guess = min(guess * min(ratio ** (2.0 / 3.0), _FARTHEST), DEEPEST * size)
+        if ratio < _ALIKE and ratio * _ALIKE > 1.0:
+            break
+    begin_root(root, guess, force ** (2.0 / 3.0) / guess, 0.0, DEEPEST * size)
     return above, touch, nodes
 
 
@@ -83,11 +92,13 @@ def _press_for_load(mode, force, touch, nodes, root, arrays):
     """Find the height that carries `force` by solving the normal problem of a single patch for its load.
 
     Each solution lays the patch at the height that the last one has found, and asks for the load that would have left `force`
-    there; the first one is rough. With Height.VERTICAL the tangential problem is solved too. Return the number of strips; 0
-    where there are more patches than one, -1 where strips that find no rest quickly have brought `root` near the height.
+    there; the first one is rough. On a flange the plane of the patch turns with the height at which it is laid: from the
+    second one on, far steps from this height to the one that is found are a function whose zero is sought by secants.
+    With Height.VERTICAL the tangential problem is solved too. Return the number of strips; 0 where there are more patches
+    than one, -1 where strips that find no rest quickly have brought `root` near the height.
     """
     search, motion, result, case = arrays.search, arrays.search.motion[0], arrays.result[0], arrays.patch_case[0]
-    share, quick = 1.0, False
+    share, quick, steeper, step_before = 1.0, False, 1.0, 0.0
     for k in range(_MOST_LAID):
         if _start_of(describe(search, touch + root.x, nodes), quick, arrays) != 1:
             return 0
@@ -115,11 +126,15 @@ def _press_for_load(mode, force, touch, nodes, root, arrays):
         if quick and not rough and abs(rise) * growth <= _LAID and motion.missed <= _ITERATED:
             root.evaluations = k + 1
             return n_strips
-        depth = root.x + rise + 1.5 * ((force / reached) ** (2.0 / 3.0) - 1.0) / growth
+        step = rise + 1.5 * ((force / reached) ** (2.0 / 3.0) - 1.0) / growth
+        if abs(step_before) * growth > _NEAR:
+            steeper = min(max((step_before - step) / (root.x - root.before), _LEAST_STEEPER), _MOST_STEEPER)
+        before, depth, step_before = root.x, root.x + step / steeper, step
         if not root.first < depth < root.last:
             return 0
-        begin_root(root, depth, root.slope, root.first, root.last)
-        if not quick and not rough:
+        begin_root(root, depth, 2.0 / 3.0 * force ** (2.0 / 3.0) * growth * steeper, root.first, root.last)
+        root.before = before
+        if not quick and not rough and (abs(step) * growth <= _NEAR or k == _MOST_LAID - 1):
             return -1
     return 0
 
@@ -187,7 +202,7 @@ def _solve_under(mode, force, arrays):
         else:
             growth = solve_patches(n, pressed, brief, False, arrays)
             reached = _carried(mode, n, arrays)
-        if root.evaluations == 0 and reached > 0.0 and growth > 0.0:
+        if root.evaluations == 0 and not slow and reached > 0.0 and growth > 0.0:
             root.slope = 2.0 / 3.0 * reached ** (2.0 / 3.0) * growth
         missing = abs(reached - force) / force
         if missing < best:

@@ -14,8 +14,9 @@ from contact.kernels.rows import Element, Field, Strip
 from contact.kernels.tangential.creep_force import creep_force
 from contact.kernels.tangential.ellipses import Part, end_of_patch, is_beyond_kalker, place_in_load, stiffness_of
 from contact.kernels.tangential.fastrip import fastrip
-from contact.kernels.tangential.fastrip_mapped import estimate_patch, fastrip_mapped
+from contact.kernels.tangential.fastrip_mapped import fastrip_mapped, set_shapes
 from contact.kernels.tangential.fastsim import fastsim
+from contact.kernels.tangential.pulls import is_divided, set_forces
 
 
 @kernel
@@ -91,12 +92,12 @@ def set_rolling(strips: Matrix, n: int, case: Case) -> None:
 
 
 @kernel
-def _roll_patch(part, n, case, workspace, result):
+def _roll_patch(part, n, divided, case, workspace, result):
     """Solve the tangential problem of one patch, of `n` strips in all, by the method of the case."""
     if case.tangential_family == TangentialFamily.FASTSIM:
         fastsim(part, case, workspace, result)
     elif case.tangential_family == TangentialFamily.FASTRIP_MAPPED:
-        fastrip_mapped(part, n, case, workspace, result)
+        fastrip_mapped(part, n, divided, case, workspace, result)
     elif case.tangential_family == TangentialFamily.CREEP_FORCE:
         creep_force(part, case, workspace, result)
     else:
@@ -125,12 +126,15 @@ def _roll(n, case, workspace, result):
     workspace.space.case[0] = case
     surface = workspace.space.case[0]
     surface.mu = of_case(case)
-    pulled = case.tangential_family == TangentialFamily.FASTRIP_MAPPED and end_of_patch(workspace.strips, n, 0) < n
-    first = 0 if pulled else n
-    while first < n:  # what several patches do to each other
+    mapped = case.tangential_family == TangentialFamily.FASTRIP_MAPPED
+    if mapped:
+        set_shapes(n, workspace)
+    divided = mapped and is_divided(workspace.strips, 0, n)
+    first = 0 if divided else n
+    while first < n:  # what several shapes do to each other
         part = _part(n, first, workspace, result)
         surface.G = stiffness_of(part, case, surface.mu * part.N, workspace)
-        estimate_patch(part, surface, workspace)
+        set_forces(workspace.strips, part.first, part.last, (0, n), surface, workspace.tables)
         first = part.last
     first = 0
     while first < n:
@@ -138,7 +142,7 @@ def _roll(n, case, workspace, result):
         surface.G = stiffness_of(part, case, surface.mu * part.N, workspace)
         if _reads_kalker(case) and is_beyond_kalker(workspace.strips, first, part.last):
             result.beyond += part.N / max(result.N, 1e-300)
-        _roll_patch(part, n, surface, workspace, result)
+        _roll_patch(part, n, divided, surface, workspace, result)
         first = part.last
 
 

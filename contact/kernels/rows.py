@@ -37,6 +37,10 @@ class Strip(IntEnum):
     FORCE_X = 26  # estimated force of the strip [N]
     FORCE_Y = 27
     BEHIND = 28  # of its middle, where that force acts [m]
+    TURN = 29  # what the turn of the strip's shape adds to ln(a/b) (`tangential.skew`)
+    COUPLING = 30  # of longitudinal and lateral creepage, by that turn
+    SPIN_STIFFNESS = 31  # STIFFNESS times 4 C33 (a/b)/C11 [m²]
+    SPIN_FACTOR = 32  # mean of that factor over the strip's shape
 
 
 class Field(IntEnum):

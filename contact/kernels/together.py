@@ -60,20 +60,21 @@ def roll_together(n, creepage, spin, case, workspace):
     """
     strips, elements = workspace.strips, workspace.rule.elements
     set_rolling(strips, n, case)
-    of_patch = set_shapes(0, n, workspace)
+    set_shapes(n, workspace)
     _copy_with(n, 2, case.vx, case.vy, case.phi + spin, strips)
     _copy_with(n, 1, case.vx, case.vy + creepage, case.phi, strips)
     _copy_with(n, 0, case.vx + creepage, case.vy, case.phi, strips)
     divided = is_divided(strips, 0, n)
     for copy in range(COPIES):
+        first, end = copy * n, (copy + 1) * n
         if divided:
-            set_forces(strips, copy * n, (copy + 1) * n, case, of_patch[1], workspace.tables)
-            set_pulls(strips, copy * n, (copy + 1) * n, (copy * n, (copy + 1) * n), case)
-        set_effective(strips, copy * n, (copy + 1) * n, case, of_patch, workspace.tables)
+            set_forces(strips, first, end, (first, end), case, workspace.tables)
+            set_pulls(strips, first, end, (first, end), case)
+        set_effective(strips, first, end, (first, end), case, workspace.tables)
     last = COPIES * n
     for block in range(0, last, LANES):
         lanes = workspace.space.lanes[: room_for(last - block)]
-        set_block(strips, block, last, case, workspace.tables.kalker, of_patch, lanes)
+        set_block(strips, block, last, case, workspace.tables.kalker, lanes)
         march(Uneven(0), elements, lanes, workspace.space.trace)
         add_zone(elements, lanes)
         for l in range(min(LANES, last - block)):

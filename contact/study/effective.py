@@ -101,7 +101,7 @@ class OneEllipse(OwnsArrays):
         self.result = np.zeros(1, RESULT)[0]
         self.n = press_case(s.samples, case[0], space, self.result)
         set_rolling(space.strips, self.n, case[0])
-        self.spin = set_shapes(0, self.n, space)
+        set_shapes(self.n, space)
         self.case, self.own, self.strips, self.area = case[0], space, space.strips.copy(), float(self.result.area)
 
     @one_thread
@@ -112,7 +112,7 @@ class OneEllipse(OwnsArrays):
         strips[Strip.VX : Strip.PHI + 1, : self.n] = creepage[:, None]
         strips[Strip.TO_EXPONENT, : self.n] = exponent
         result.Fx = result.Fy = result.Mz = result.power = result.slip_area = 0.0
-        roll_patch(0, self.n, self.case, self.spin, self.own, result)
+        roll_patch(0, self.n, self.case, self.own, result)
         return np.array([result.Fx, result.Fy, result.Mz, result.slip_area]) / (
             self.limit,
             self.limit,

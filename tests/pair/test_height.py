@@ -90,6 +90,15 @@ def test_two_or_three_solutions_find_the_height_on_average(kind):
     assert max(counts) <= 5
 
 
+def test_two_or_three_solutions_find_the_height_on_a_flange():
+    """The plane of the patch turns with the height at which it is laid: there were 2.7 without secants."""
+    pair, counts = WheelRailPair(Pair(WHEEL, profile.rail_60e1(1 / 20, breakpoints="UIC 519"))), []
+    for y in np.linspace(5.5e-3, 7.5e-3, 41):
+        assert pair.solve(Pose(y=y), VELOCITY, load=80e3).status is not Status.NOT_CONVERGED
+        counts.append(int(pair.arrays.roots["evaluations"][-1]))
+    assert np.mean(counts) < 2.5
+
+
 @pytest.mark.parametrize("kind", ["load", "vertical"])
 def test_what_end_strips_under_tension_take_off_a_load_is_not_missing_at_its_height(kind):
     """They take 2.8e-4 here, by which the pressures were lower than those at the height."""

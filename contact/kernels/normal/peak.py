@@ -23,6 +23,8 @@ _SHARP_AGAIN, _SHARPEST_AGAIN = 1.75, 2.5
 _HIGH = 0.8
 #: Difference of two neighbours' pressures, over the larger one, below which the parts of both count.
 _ALIKE = 0.15
+#: Half the difference of their tops, over their mean, up to which this mean counts, beyond it the higher one less this.
+_SAME = 0.0025
 #: Parts of a strip, and of three strips.
 _PARTS, _NINE = 3, 9
 #: Strips at either side of a divided one whose pressures are taken at every part. Those beyond act smoothly.
@@ -291,7 +293,7 @@ def _top_of_parts(i, n, of_ellipse, problem):
 def _found(i, n, of_ellipse, problem):
     """Return the largest pressure around strip i, a peak. If a neighbour has nearly its pressure, both are divided.
 
-    Otherwise the answer would jump where the peak moves from one strip to the next.
+    Otherwise the answer would jump where the peak moves from one strip to the next. The parts of only one of them may have it.
     """
     strips = problem.workspace.strips
     p = strips[Strip.P0]
@@ -300,8 +302,10 @@ def _found(i, n, of_ellipse, problem):
     apart = min((p[i] - p[k]) / (_ALIKE * p[i]), 1.0)
     if apart == 1.0 or not (_is_beside(k, k - 1, n, strips) and _is_beside(k, k + 1, n, strips)):
         return top
-    share = 0.5 + 0.5 * rise(apart, 0.0, 1.0)
-    return share * top + (1.0 - share) * _top_of_parts(k, n, of_ellipse, problem)
+    other = _top_of_parts(k, n, of_ellipse, problem)
+    mean = 0.5 * (top + other)
+    of_both = mean + max(0.5 * abs(other - top) - _SAME * mean, 0.0)
+    return of_both + rise(apart, 0.0, 1.0) * (top - of_both)
 
 
 @kernel

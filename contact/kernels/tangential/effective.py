@@ -52,10 +52,10 @@ def _on_shape(lopsided, ahead, tail, X, Y, Z):
 
 
 @kernel
-def _changes(strips, first, last, case, centre, of_patch, tables):
-    """Return the changes of creepages and map exponent for the shape that is shared, and 1 if it is beyond the table.
+def _changes(strips, first, last, i, case, tables):
+    """Return the changes of creepages and map exponent for the shape of strip i, and 1 if it is beyond the table.
 
-    Rigid slip is referred to y = `centre`. `of_patch` is that of `set_shapes`.
+    Rigid slip is referred to the centre of the shape, `SHARE` are the shares in it.
 
     The equivalent ellipse has the shape's area and mean length. On our own patches this is better than
     the longest strip (.0054 instead of .0058 of mu N on new profiles). Creepages that differ from strip to strip enter by
@@ -65,25 +65,25 @@ def _changes(strips, first, last, case, centre, of_patch, tables):
     a, b = mean_ellipse(strips, first, last)
     longest, weights, x, vx, vy, phi, limit = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
     load, load_y, load_x, stiffness, stiffness_y, stiffness_x = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
-    for i in range(first, last):
-        weight, y = strips[Strip.SHARE, i] * strips[Strip.A, i] * strips[Strip.DY, i], strips[Strip.Y, i]
-        longest = max(longest, strips[Strip.SHARE, i] * strips[Strip.A, i])
+    for j in range(first, last):
+        weight, y = strips[Strip.SHARE, j] * strips[Strip.A, j] * strips[Strip.DY, j], strips[Strip.Y, j]
+        longest = max(longest, strips[Strip.SHARE, j] * strips[Strip.A, j])
         weights += weight
-        pressed = weight * strips[Strip.P0, i]
-        load, load_y, load_x = load + pressed, load_y + pressed * y, load_x + pressed * strips[Strip.XC, i]
-        stiff = weight * strips[Strip.A, i]
+        pressed = weight * strips[Strip.P0, j]
+        load, load_y, load_x = load + pressed, load_y + pressed * y, load_x + pressed * strips[Strip.XC, j]
+        stiff = weight * strips[Strip.A, j]
         stiffness, stiffness_y = stiffness + stiff, stiffness_y + stiff * y
-        stiffness_x += stiff * strips[Strip.XC, i]
-        limit += weight * strips[Strip.BOUND, i]
-        x += weight * strips[Strip.XC, i]
-        vx += weight * (strips[Strip.VX, i] + strips[Strip.BY_PULL_X, i] - strips[Strip.PHI, i] * strips[Strip.Y, i])
-        vy += weight * (strips[Strip.VY, i] + strips[Strip.BY_PULL_Y, i] + strips[Strip.PHI, i] * strips[Strip.XC, i])
-        phi += weight * strips[Strip.PHI, i]
+        stiffness_x += stiff * strips[Strip.XC, j]
+        limit += weight * strips[Strip.BOUND, j]
+        x += weight * strips[Strip.XC, j]
+        vx += weight * (strips[Strip.VX, j] + strips[Strip.BY_PULL_X, j] - strips[Strip.PHI, j] * strips[Strip.Y, j])
+        vy += weight * (strips[Strip.VY, j] + strips[Strip.BY_PULL_Y, j] + strips[Strip.PHI, j] * strips[Strip.XC, j])
+        phi += weight * strips[Strip.PHI, j]
     limit *= 0.5 * math.pi * case.mu
     if not limit > NO_FRICTION * G * a * b or (vx == 0.0 and vy == 0.0 and phi == 0.0):
         return 0.0, 0.0, 0.0, 0.0, 0.0
     x, vx, vy, phi = x / weights, vx / weights, vy / weights, phi / weights
-    log_aspect, c = math.log(a / b) + of_patch[1], math.sqrt(a * b)
+    log_aspect, c = math.log(a / b) + strips[Strip.TURN, i], math.sqrt(a * b)
     coefficients = kalker.coefficients(tables.kalker, log_aspect)
     unit_x, unit_y, unit_z, weight = units(G, c, limit, log_aspect, coefficients)
     unit_spin = weight * unit_z
@@ -94,12 +94,12 @@ def _changes(strips, first, last, case, centre, of_patch, tables):
     )
     r = math.sqrt(X * X + Y * Y + spin * spin)
     to_spin *= sign_y * r / unit_spin
-    by_turn_x, by_turn_y = coupled(of_patch[2], case.nu, r, coefficients, c, (vx, vy, phi))
+    by_turn_x, by_turn_y = coupled(strips[Strip.COUPLING, i], case.nu, r, coefficients, c, (vx, vy, phi))
     lopsided = min(max((stiffness_y / stiffness - load_y / load) / c, -_MOST), _MOST)
     ahead = min(max((stiffness_x / stiffness - load_x / load) / c, -_MOST), _MOST)
     by_shape_x, by_shape_y = _on_shape(lopsided, ahead, math.log(longest / a), X, Y, unit_z * phi)
     return (
-        (sign_x * r * to_x + by_shape_x) / unit_x + to_spin * centre + by_turn_x,
+        (sign_x * r * to_x + by_shape_x) / unit_x + to_spin * strips[Strip.CENTRE, i] + by_turn_x,
         (sign_y * r * to_y + by_shape_y) / unit_y - to_spin * x + by_turn_y,
         to_spin,
         exponent,
@@ -118,7 +118,7 @@ def _mix(strips, i, j, k, share):
 
 
 @kernel
-def _set_changes(strips, first, last, i, back, case, of_patch, tables, beyond):
+def _set_changes(strips, first, around, i, back, case, tables, beyond):
     """Set the changes of strip i of a patch: those of strip i - `back` if it has the same shape.
 
     Return 1 if they were read beyond the table, else 0; `beyond` is what strip i - `back` had.
@@ -126,27 +126,26 @@ def _set_changes(strips, first, last, i, back, case, of_patch, tables, beyond):
     if i - back >= first and strips[Strip.TIE, i] * strips[Strip.TIE, i - back + 1] == 1.0:
         _mix(strips, i, i - back, i - back, 0.0)
         return beyond
-    share_shape(strips, first, last, i)
-    to_x, to_y, to_phi, exponent, outside = _changes(
-        strips, first, last, case, strips[Strip.CENTRE, i], of_patch, tables
-    )
+    share_shape(strips, around[0], around[1], i)
+    to_x, to_y, to_phi, exponent, outside = _changes(strips, around[0], around[1], i, case, tables)
     strips[Strip.TO_X, i], strips[Strip.TO_Y, i] = to_x, to_y
     strips[Strip.TO_PHI, i], strips[Strip.TO_EXPONENT, i] = to_phi, exponent
     return outside
 
 
 @kernel
-def set_effective(strips, first, last, case, of_patch, tables):
+def set_effective(strips, first, last, around, case, tables):
     """Set the effective creepages and the map exponent of every strip of one patch, as changes.
 
-    Return the share of the load of the strips for which the table was read beyond its a/b. `of_patch` is that of `set_shapes`.
+    Return the share of the load of the strips for which the table was read beyond its a/b. `around` are the first of all strips
+    of the separation and the one after its last.
     The table takes .9 µs. Where shapes change it is read for every other strip. A strip between two others gets a mean of
     theirs, in which the one that it is tied to more closely has the greater weight.
     """
     before, beyond, outside, load = first, 0.0, 0.0, 0.0
     for i in range(first, last):
         if is_read(i, first, last):
-            beyond = _set_changes(strips, first, last, i, max(i - before, 1), case, of_patch, tables, beyond)
+            beyond = _set_changes(strips, first, around, i, max(i - before, 1), case, tables, beyond)
             before = i
             share = strips[Strip.P0, i] * strips[Strip.A, i] * strips[Strip.DY, i]
             load, outside = load + share, outside + beyond * share

@@ -43,17 +43,13 @@ from contact.kernels.tangential.march import (
     slip_at,
     stop,
 )
-from contact.kernels.tangential.pulls import is_divided, set_forces, set_pulls
+from contact.kernels.tangential.pulls import set_pulls
 from contact.kernels.tangential.stick_zone import add_zone, begin_zone, end_zone
 from contact.kernels.tangential.ties import tie_strips
 from contact.kernels.tangential.varying import begin_varying, varies
 
 _MOST = 2.0  # factor by which slip velocities may be scaled
 _ROUND_OFF = 1e-12  # a slip zone shorter than this, over half the length of its strip, is none
-
-
-#: Numbers of a patch that `set_shapes` returns.
-OfPatch = tuple[float, float, float]
 
 
 class Uneven(NamedTuple):
@@ -228,20 +224,20 @@ def slip_factor(power, work):
 
 
 @kernel
-def _march_under(block, last, case, factor, of_patch, workspace):
+def _march_under(block, last, case, factor, workspace):
     """March along a block of strips under friction that varies along them."""
     lanes, trace, elements = workspace.space.lanes, workspace.space.trace, workspace.rule.elements
-    set_block(workspace.strips, block, last, case, workspace.tables.kalker, of_patch, lanes)
+    set_block(workspace.strips, block, last, case, workspace.tables.kalker, lanes)
     march(Uneven(1), elements, lanes, trace)
     begin_varying(workspace.strips, block, last, case, lanes[Lane.BOUND : Lane.BOUND + LANES], lanes)
     let_fall(case, factor, elements, lanes, trace)
 
 
 @entry
-def roll_patch(first: int, last: int, case: Case, of_patch: OfPatch, workspace: Workspace, result: Result) -> None:
+def roll_patch(first: int, last: int, case: Case, workspace: Workspace, result: Result) -> None:
     """Add forces, power and slip area of the strips of a patch to `result`. Fill their fields if there is room.
 
-    `of_patch` is that of `set_shapes`. In steady rolling the slip dissipates the work of the forces. The march's slip follows
+    In steady rolling the slip dissipates the work of the forces. The march's slip follows
     the given creepages, its forces the effective ones, so the slip velocities of the patch are scaled to that work. Friction
     that varies along the strips takes three marches: for this factor, for its effect on the stick zones, and with that.
     """
@@ -253,7 +249,7 @@ def roll_patch(first: int, last: int, case: Case, of_patch: OfPatch, workspace: 
     factor, power, work = 1.0, 0.0, 0.0
     if falling:  # friction follows from the scaled slip, so its factor is needed first
         for block in range(first, last, LANES):
-            set_block(strips, block, last, case, workspace.tables.kalker, of_patch, lanes)
+            set_block(strips, block, last, case, workspace.tables.kalker, lanes)
             march(Uneven(1), elements, lanes, trace)
             add_zone(elements, lanes)
             for l in range(min(LANES, last - block)):
@@ -262,15 +258,15 @@ def roll_patch(first: int, last: int, case: Case, of_patch: OfPatch, workspace: 
         factor = slip_factor(power, work)
         power, work = 0.0, 0.0
         for block in range(first, last, LANES):
-            _march_under(block, last, case, factor, of_patch, workspace)
+            _march_under(block, last, case, factor, workspace)
             set_loss(strips, block, last, case, lanes)
     for block in range(first, last, LANES):
         lanes = workspace.space.lanes[: room_for(LANES if falling else last - block)]
         if falling:
-            _march_under(block, last, case, factor, of_patch, workspace)
+            _march_under(block, last, case, factor, workspace)
             sum_up(elements, lanes, trace)
         else:
-            set_block(strips, block, last, case, workspace.tables.kalker, of_patch, lanes)
+            set_block(strips, block, last, case, workspace.tables.kalker, lanes)
             march(Uneven(1 if shown else 0), elements, lanes, trace)
             add_zone(elements, lanes)
         for l in range(min(LANES, last - block)):
@@ -297,34 +293,21 @@ def roll_patch(first: int, last: int, case: Case, of_patch: OfPatch, workspace: 
 
 
 @entry
-def set_shapes(first: int, last: int, workspace: Workspace) -> OfPatch:
-    """Set ties, aspect ratios and centres of the strips of a patch; return what `set_aspects` returns."""
-    tie_strips(workspace.strips, first, last)
-    of_patch = set_aspects(workspace.strips, first, last, workspace.tables.kalker)
-    set_centres(workspace.strips, first, last)
-    return of_patch
+def set_shapes(n: int, workspace: Workspace) -> None:
+    """Set ties, aspect ratios and centres of the `n` strips of all patches."""
+    tie_strips(workspace.strips, 0, n)
+    set_aspects(workspace.strips, 0, n, workspace.tables.kalker)
+    set_centres(workspace.strips, 0, n)
 
 
 @kernel
-def estimate_patch(part, case, workspace):
-    """Estimate the forces with which the strips of one of several patches pull at the others."""
-    of_patch = set_shapes(part.first, part.last, workspace)
-    set_forces(workspace.strips, part.first, part.last, case, of_patch[1], workspace.tables)
-
-
-@kernel
-def fastrip_mapped(part, n, case, workspace, result):
+def fastrip_mapped(part, n, divided, case, workspace, result):
     """Fill the traction, slip and stick fields of one patch. Add its forces, power, slip area and `beyond` to `result`.
 
-    `n` is the number of strips of all patches. If there are several, `estimate_patch` has been called for each of them.
+    `set_shapes` has been called for the `n` strips of all patches. If they are `divided`, they have the forces of `set_forces`.
     """
-    strips = workspace.strips
-    of_patch = set_shapes(part.first, part.last, workspace)
-    alone = part.last - part.first == n
-    if alone and is_divided(strips, 0, n):
-        set_forces(strips, 0, n, case, of_patch[1], workspace.tables)
-    if not alone or is_divided(strips, 0, n):
-        set_pulls(strips, part.first, part.last, (0, n), case)
-    beyond = set_effective(workspace.strips, part.first, part.last, case, of_patch, workspace.tables)
+    if divided:
+        set_pulls(workspace.strips, part.first, part.last, (0, n), case)
+    beyond = set_effective(workspace.strips, part.first, part.last, (0, n), case, workspace.tables)
     result.beyond += beyond * part.N / max(result.N, 1e-300)
-    roll_patch(part.first, part.last, case, of_patch, workspace, result)
+    roll_patch(part.first, part.last, case, workspace, result)

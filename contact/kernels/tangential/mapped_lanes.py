@@ -66,17 +66,17 @@ class _Input(Row):
     ROOT_ASPECT = Lane.SUM_Y
     FITTED = Lane.SUM_M
     CENTRE = Lane.POWER
+    RHO33 = Lane.STICK
 
 
 @kernel
-def set_block(strips, block, last, case, table, of_patch, lanes):
+def set_block(strips, block, last, case, table, lanes):
     """Fill `lanes` for the strips from `block` on: steps 1 and 2 of mapped_strip.md 3.
 
-    `of_patch` is that of `set_aspects`. All rows are zero for a strip that carries no load. The rigid slip of spin is that
-    near the line of least gap: on a skewed patch, strips hold each other back (mapped_strip.md 7).
+    All rows are zero for a strip that carries no load. The rigid slip of spin is that near the line of least gap: on a skewed
+    patch, strips hold each other back (mapped_strip.md 7).
     """
     G = case.G
-    rho33, turn, _ = of_patch
     least = NO_FRICTION * G
     for l in range(marching(lanes)):
         i = min(block + l, last - 1)
@@ -95,10 +95,10 @@ def set_block(strips, block, last, case, table, of_patch, lanes):
         lanes[Lane.TO_X + l], lanes[Lane.TO_Y + l], lanes[Lane.TO_SPIN + l] = to_x, to_y, to_phi
         c11, c22, c23, _ = kalker.coefficients(table, log_aspect)
         lanes[_Input.C11 + l], lanes[_Input.C22 + l], lanes[_Input.C23 + l] = c11, c22, c23
-        lanes[_Input.ROOT_ASPECT + l] = math.exp(0.5 * (log_aspect - turn))  # of chord and width
+        lanes[_Input.ROOT_ASPECT + l] = math.exp(0.5 * (log_aspect - strips[Strip.TURN, i]))  # of chord and width
         lanes[_Input.FITTED + l] = min(max(log_aspect, -_LOG_ASPECT_FIT), _LOG_ASPECT_FIT)
         lanes[Lane.N + l] = strips[Strip.TO_EXPONENT, i]
-        lanes[_Input.CENTRE + l] = strips[Strip.CENTRE, i]
+        lanes[_Input.CENTRE + l], lanes[_Input.RHO33 + l] = strips[Strip.CENTRE, i], strips[Strip.SPIN_FACTOR, i]
     edges = 0
     for l in range(marching(lanes)):
         bound, a, y, xc = lanes[Lane.BOUND + l], lanes[_Input.HALF + l], lanes[_Input.AT + l], lanes[_Input.XC + l]
@@ -109,7 +109,7 @@ def set_block(strips, block, last, case, table, of_patch, lanes):
             lanes[_Input.FITTED + l],
         )
         c11, c22, c23 = lanes[_Input.C11 + l], lanes[_Input.C22 + l], lanes[_Input.C23 + l]
-        y_c = lanes[_Input.CENTRE + l]
+        y_c, rho33 = lanes[_Input.CENTRE + l], lanes[_Input.RHO33 + l]
         live = 1.0 if bound > 0.0 else 0.0
         r = c22 / c11
         rho23 = 0.75 * math.pi * c23 / (c22 * lanes[_Input.ROOT_ASPECT + l])

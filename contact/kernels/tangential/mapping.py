@@ -102,15 +102,11 @@ def _aspects_of_shape(strips, first, last, i):
 
 @kernel
 def set_aspects(strips, first, last, table):
-    """Set ln(a/b) of the strips of a patch in place, and their stiffness (mapped_strip.md 3, step 0).
-
-    Return the C33 factor of the patch, and its turn (`turn_of`). The weights are C11·a·dy.
-    """
-    turn, coupling = turn_of(strips, first, last)
-    stiffness, spin = 0.0, 0.0
+    """Set ln(a/b) of the strips in place, their turn and their stiffness (mapped_strip.md 3, step 0)."""
     i = first
     while i < last:
         mean, equivalent = _aspects_of_shape(strips, first, last, i)
+        turn, coupling = turn_of(strips, first, last)
         of_shape = _LOCAL * mean + (1.0 - _LOCAL) * (equivalent + _TURN * turn)
         end = end_of_shape(strips, last, i)
         for j in range(i, end):
@@ -118,26 +114,25 @@ def set_aspects(strips, first, last, table):
             c11, _, _, c33 = kalker.coefficients(table, log_aspect)
             weight = c11 * strips[Strip.A, j] * strips[Strip.DY, j]
             strips[Strip.ASPECT, j], strips[Strip.STIFFNESS, j] = log_aspect, weight
-            stiffness += weight
-            spin += weight * 4.0 * c33 * math.exp(log_aspect) / c11
+            strips[Strip.SPIN_STIFFNESS, j] = weight * 4.0 * c33 * math.exp(log_aspect) / c11
+            strips[Strip.TURN, j], strips[Strip.COUPLING, j] = turn, coupling
         i = end
-    if not stiffness > 0.0:
-        return 1.0, 0.0, 0.0
-    return spin / stiffness, turn, coupling
 
 
 @kernel
 def set_centres(strips, first, last):
-    """Set the centre of longitudinal stiffness of the shape of every strip (mapped_strip.md 3, step 0)."""
+    """Set the centre of longitudinal stiffness and the C33 factor of the shape of every strip (mapped_strip.md 3, step 0)."""
     i = first
     while i < last:
         share_shape(strips, first, last, i)
-        stiffness, moment = 0.0, 0.0
+        stiffness, moment, spin = 0.0, 0.0, 0.0
         for j in range(first, last):
             weight = strips[Strip.SHARE, j] * strips[Strip.STIFFNESS, j]
             stiffness += weight
             moment += weight * strips[Strip.Y, j]
+            spin += strips[Strip.SHARE, j] * strips[Strip.SPIN_STIFFNESS, j]
         end = end_of_shape(strips, last, i)
         for j in range(i, end):
             strips[Strip.CENTRE, j] = moment / max(stiffness, 1e-300)
+            strips[Strip.SPIN_FACTOR, j] = spin / max(stiffness, 1e-300)
         i = end

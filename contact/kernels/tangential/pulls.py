@@ -34,8 +34,8 @@ def is_divided(strips, first, last):
 
 
 @kernel
-def _used(strips, first, last, case, turn, tables):
-    """Return the estimated force of the shape that is shared, over mu N."""
+def _used(strips, first, last, turn, case, tables):
+    """Return the estimated force of the shape that is shared, over mu N. `turn` is that of `turn_of`."""
     a, b = mean_ellipse(strips, first, last)
     weights, vx, vy, phi, limit = 0.0, 0.0, 0.0, 0.0, 0.0
     for i in range(first, last):
@@ -55,12 +55,15 @@ def _used(strips, first, last, case, turn, tables):
 
 
 @kernel
-def set_forces(strips, first, last, case, turn, tables):
-    """Estimate the force of every strip of a patch, and how far from its middle it acts. `turn` is that of `turn_of`."""
+def set_forces(strips, first, last, around, case, tables):
+    """Estimate the force of every strip of a patch, and how far from its middle it acts.
+
+    Here and below `around` are the first of all strips of the separation and the one after its last.
+    """
     i = first
     while i < last:
-        share_shape(strips, first, last, i)
-        fx, fy = _used(strips, first, last, case, turn, tables)
+        share_shape(strips, around[0], around[1], i)
+        fx, fy = _used(strips, around[0], around[1], strips[Strip.TURN, i], case, tables)
         left = max(1.0 - math.sqrt(fx * fx + fy * fy), 0.0)
         behind = left / (1.0 + math.sqrt(left)) if left > 0.0 else 0.0
         end = end_of_shape(strips, last, i)
@@ -84,14 +87,14 @@ def _slope(x, y, wide, Fx, Fy, nu):
 
 
 @kernel
-def _pull(strips, first, last, all_strips, i, case):
-    """Set by what creepage the strips of a separation pull at strip i of a patch."""
-    share_shape(strips, first, last, i)
+def _pull(strips, around, i, case):
+    """Set by what creepage all other strips pull at strip i."""
+    share_shape(strips, around[0], around[1], i)
     y, dy, half = strips[Strip.Y, i], strips[Strip.DY, i], 0.5 * strips[Strip.A, i]
     at = strips[Strip.XC, i] + strips[Strip.BEHIND, i]
     to_x, to_y = 0.0, 0.0
-    for j in range(all_strips[0], all_strips[1]):
-        apart = 1.0 - strips[Strip.SHARE, j] if first <= j < last else 1.0
+    for j in range(around[0], around[1]):
+        apart = 1.0 - strips[Strip.SHARE, j]
         if apart <= 0.0:
             continue
         x, away = at - strips[Strip.XC, j] + strips[Strip.BEHIND, j], y - strips[Strip.Y, j]
@@ -109,14 +112,11 @@ def _pull(strips, first, last, all_strips, i, case):
 
 
 @kernel
-def set_pulls(strips, first, last, all_strips, case):
-    """Set by what creepage the strips of a separation pull at those of a patch, from the forces of `set_forces`.
-
-    `all_strips` are the first strip of the separation and the one after its last.
-    """
+def set_pulls(strips, first, last, around, case):
+    """Set by what creepage all strips pull at those of a patch, from the forces of `set_forces`."""
     for i in range(first, last):
         if is_read(i, first, last):
-            _pull(strips, first, last, all_strips, i, case)
+            _pull(strips, around, i, case)
     for i in range(first + 1, last - 1):
         if not is_read(i, first, last):
             strips[Strip.BY_PULL_X, i] = 0.5 * (strips[Strip.BY_PULL_X, i - 1] + strips[Strip.BY_PULL_X, i + 1])

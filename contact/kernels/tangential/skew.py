@@ -22,22 +22,23 @@ _FADE = 5.0
 
 @kernel
 def turn_of(strips, first, last):
-    """Return by how much ln(a/b) of the patch as a whole exceeds ln(a0/b), times `_SHARE`, and sin 2θ tanh(rate ln g).
+    """Return by how much ln(a/b) of the shape that is shared exceeds ln(a0/b), times `_SHARE`, and sin 2θ tanh(rate ln g).
 
     Both are 0 where the middles of the strips lie on a line along y.
     """
     load, y, x, longest, area = 0.0, 0.0, 0.0, 0.0, 0.0
     for i in range(first, last):
-        part = strips[Strip.A, i] * strips[Strip.DY, i]
+        half = strips[Strip.SHARE, i] * strips[Strip.A, i]
+        part = half * strips[Strip.DY, i]
         weight = strips[Strip.P0, i] * part
         load, y, x = load + weight, y + weight * strips[Strip.Y, i], x + weight * strips[Strip.XC, i]
-        longest, area = max(longest, strips[Strip.A, i]), area + 2.0 * part
+        longest, area = max(longest, half), area + 2.0 * part
     if not load > 0.0:
         return 0.0, 0.0
     y, x = y / load, x / load
     square, product = 0.0, 0.0
     for i in range(first, last):
-        weight = strips[Strip.P0, i] * strips[Strip.A, i] * strips[Strip.DY, i]
+        weight = strips[Strip.P0, i] * (strips[Strip.SHARE, i] * strips[Strip.A, i] * strips[Strip.DY, i])
         away = strips[Strip.Y, i] - y
         square, product = square + weight * away * away, product + weight * away * (strips[Strip.XC, i] - x)
     if not (square > 0.0 and product != 0.0):
