@@ -7,16 +7,16 @@ import numpy as np
 from contact.arrays import Array
 from contact.geometry.roughness import Points
 
-_JUMP = 0.4  # of the extent: a step this long starts another scan
+JUMP = 0.4  # of the extent: a step this long starts another scan
 _OVERLAP = 0.1  # of the narrower of two parts: those of one scan with a gap overlap less
-_RETURN = 0.2  # share of the points on the way back that makes a backward scan
+RETURN = 0.2  # share of the points on the way back that makes a backward scan
 _ASIDE, _FOLD = 0.1, 8  # of the extent: how far it may lie aside of the way out; points on either side of its turn
 
 
 def scans(points: Points) -> list[Points]:
     """Return the parts of the points between long jumps back, without parts of one or two points. A jump ahead is a gap."""
     step = np.hypot(*np.diff(points, axis=0).T)
-    jumps = np.flatnonzero(step > _JUMP * np.hypot(*np.ptp(points, axis=0))) + 1
+    jumps = np.flatnonzero(step > JUMP * np.hypot(*np.ptp(points, axis=0))) + 1
     found: list[Points] = []
     for part in np.split(points, jumps):
         if len(part) < 3:
@@ -38,8 +38,8 @@ def turning(points: Points) -> int:
     """Return the index at which a scan turns and comes back over the way that it went; 0 if it does not."""
     far = int(np.argmax(np.hypot(*(points - points[0]).T)))
     back = len(points) - 1 - far
-    returned = np.hypot(*(points[-1] - points[far])) > _JUMP * np.hypot(*(points[far] - points[0]))
-    if not (returned and back > _RETURN * len(points)):
+    returned = np.hypot(*(points[-1] - points[far])) > JUMP * np.hypot(*(points[far] - points[0]))
+    if not (returned and back > RETURN * len(points)):
         return 0
     again = points[far :: max(1, back // 50)]
     aside = np.sqrt([((points[: far + 1] - point) ** 2).sum(axis=1).min() for point in again])
