@@ -14,7 +14,7 @@
 #define WR_FORCE_X 1
 #define WR_FORCE_Y 2
 #define WR_BIN_ROWS 10
-#define WR_STRIP_ROWS 29
+#define WR_STRIP_ROWS 33
 #define WR_MOTION_NUMBERS 31
 #define WR_MOTION_RADIUS 16
 #define WR_MOTION_TAPE 17

@@ -13,6 +13,7 @@ from contact.kernels.pair_patches import (
     keeps_ledger,
     prepare_patches,
     press_patch,
+    press_patches,
     set_case,
     solve_patches,
     workspace_of,
@@ -44,16 +45,6 @@ _LEAST_STEEPER, _MOST_STEEPER, _NEAR = 0.5, 4.0, 0.1
 #: Target and accepted residual on surfaces that change along the way, the second with friction. On the edge of a fresh flat the
 #: force is not smooth in z.
 _ROUGHER, _ACCEPTABLE_ROUGH = 1e-7, 1e-2
-
-
-@kernel
-def _carried(mode, n, arrays):
-    """Return the force that is to equal the load [N]: the vertical part of normal forces, or of all (Height.VERTICAL)."""
-    force = 0.0
-    for k in range(n):
-        contact = arrays.contacts[k]
-        force += contact.N * math.cos(contact.angle) * math.cos(contact.pitch)
-    return -arrays.total[0].Fz if mode == Height.VERTICAL else force
 
 
 @kernel
@@ -144,7 +135,7 @@ def _is_restless(n, arrays):
     """Return whether a loaded patch of the last trial found no rest in time: it left no start."""
     piece = (arrays.memory.size - 3) // MAX_PATCHES
     for k in range(n):
-        loaded = n == 1 or arrays.contacts[k].N > 0.0
+        loaded = n == 1 or arrays.search.patches[k].load > 0.0
         if loaded and arrays.memory[1 + k * piece] == 0.0:
             return True
     return False
@@ -157,8 +148,8 @@ def _solve_under(mode, force, arrays):
     The force grows with the power 3/2 of the depth, so the secants are those of its power 2/3. The slope at the first trial is
     that of the normal method, right to some per cent. Interacting strips of a single patch need no search: they are solved for
     the load (`_press_for_load`). No trial starts from another pose, and only from a trial before that came to rest quickly, so
-    the answer does not depend on the way, and differs from that of the height alone by the noise of the strips. Under a load, a
-    single patch has no tangential problem before the height is found. Where the force jumps over the load, the nearest height
+    the answer does not depend on the way, and differs from that of the height alone by the noise of the strips. Under a load
+    there is no tangential problem before the height is found. Where the force jumps over the load, the nearest height
     found is the answer, with the status NOT_CONVERGED.
     """
     search, total, motion, root = arrays.search, arrays.total[0], arrays.search.motion[0], arrays.roots[2]
@@ -175,7 +166,7 @@ def _solve_under(mode, force, arrays):
     tolerance = max(_ROUGHER if changing else _TOLERANCE, _ITERATED if iterated else 0.0)
     acceptable = _ACCEPTABLE_ROUGH if changing and mode == Height.VERTICAL else _ACCEPTABLE
     best, z_best, mark, missing, idle = math.inf, touch, math.inf, math.inf, 0
-    starts, quick = iterated and not changing, False
+    rolls, starts, quick = mode == Height.VERTICAL, iterated and not changing, False
     enters, slow = keeps_ledger(arrays), False
     if starts and not 0.0 < arrays.case[0].pressure_limit < math.inf:
         pressed = _press_for_load(mode, force, touch, nodes, root, arrays)
@@ -192,16 +183,13 @@ def _solve_under(mode, force, arrays):
         if changing:  # grids that are laid for another height would change the force
             begin(search, z)
         n = _start_of(describe(search, z, nodes), quick, arrays)
-        pressed = press_patch(0, arrays) if n == 1 else -1
-        rolls = mode == Height.VERTICAL or n != 1
         brief = rolls and missing > _ROUGH  # this trial will hardly be the last one
-        if not rolls:
-            patch, result = search.patches[0], arrays.result[0]
-            cosine = math.cos(patch.angle) * math.cos(patch.pitch)
-            reached, growth = (result.N * cosine, result.stiffness / result.N * cosine) if pressed > 0 else (0.0, 0.0)
+        if rolls:
+            pressed = press_patch(0, arrays) if n == 1 else -1
+            growth, iterations = solve_patches(n, pressed, brief, False, arrays)
+            reached = -total.Fz
         else:
-            growth = solve_patches(n, pressed, brief, False, arrays)
-            reached = _carried(mode, n, arrays)
+            pressed, reached, growth, iterations = press_patches(n, arrays)
         if root.evaluations == 0 and not slow and reached > 0.0 and growth > 0.0:
             root.slope = 2.0 / 3.0 * reached ** (2.0 / 3.0) * growth
         missing = abs(reached - force) / force
@@ -213,13 +201,13 @@ def _solve_under(mode, force, arrays):
         goes_on = advance(root, max(reached, 0.0) ** (2.0 / 3.0) - force ** (2.0 / 3.0), _SHORTEST, _MOST)
         noise = best <= _NOISE and (slow or idle >= _IDLE)
         noise = iterated and (noise or (best <= _RESTLESS and _is_restless(n, arrays)))
-        quick = starts and n == 1 and arrays.result[0].iterations <= _QUICK
+        quick = starts and iterations <= _QUICK
         if missing <= tolerance or noise or idle >= _JUMP or not goes_on:
             break
     motion.missed = best
     if best > acceptable and root.high == root.last:
         return NoAnswer.NOT_SETTLED.value
-    if z != z_best or brief or (n > 1 and enters):
+    if z != z_best or brief or (n > 1 and (enters or not rolls)):
         if changing:
             begin(search, z_best)
         n = _start_of(describe(search, z_best, nodes), quick, arrays)

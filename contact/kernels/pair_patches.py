@@ -145,9 +145,29 @@ def keeps_ledger(arrays):
 
 
 @kernel
-def solve_patches(n, pressed, brief, enters, arrays):
-    """Solve the `n` patches of the last search and add up. Return d(ln N)/dz of their normal forces, vertically [1/m].
+def press_patches(n, arrays):
+    """Solve the normal problems of the `n` patches of the last search.
 
+    Return the number of strips of the last one, the vertical force of all [N], its d(ln N)/dz [1/m] and the most iterations of
+    a patch.
+    """
+    result, n_strips, force, stiffness, most = arrays.result[0], 0, 0.0, 0.0, 0
+    for k in range(n):
+        n_strips, patch = press_patch(k, arrays), arrays.search.patches[k]
+        if n_strips > 0:
+            patch.load = result.N
+            cosine = math.cos(patch.angle) * math.cos(patch.pitch)
+            force += patch.share * result.N * cosine
+            stiffness += patch.share * result.stiffness * cosine * cosine
+            most = max(most, result.iterations)
+    return n_strips, force, stiffness / force if force > 0.0 else 0.0, most
+
+
+@kernel
+def solve_patches(n, pressed, brief, enters, arrays):
+    """Solve the `n` patches of the last search and add up.
+
+    Return d(ln N)/dz of their normal forces, vertically [1/m], and the most iterations of a patch.
     `pressed` is the number of strips of a single patch whose normal problem is solved already, or below 0. The ledger is
     filled if `enters` says so. A `brief` solution has forces, T-gamma and what follows from it, but neither damage of elements
     nor `gap_error`.
@@ -157,7 +177,7 @@ def solve_patches(n, pressed, brief, enters, arrays):
     for k in range(MAX_PATCHES):
         clear_contact(arrays.contacts[k])
     clear_total(total)
-    normal, stiffness = 0.0, 0.0
+    normal, stiffness, most = 0.0, 0.0, 0
     for k in range(n):
         patch, contact = arrays.search.patches[k], arrays.contacts[k]
         n_strips = pressed if pressed >= 0 else press_patch(k, arrays)
@@ -166,7 +186,7 @@ def solve_patches(n, pressed, brief, enters, arrays):
         pressure = pressure_wrench(workspace.strips, n_strips)
         report(patch, case, result, pressure, contact)
         if n_strips > 0:
-            patch.load = result.N
+            patch.load, most = result.N, max(most, result.iterations)
             cosine = math.cos(patch.angle) * math.cos(patch.pitch)
             normal += patch.share * result.N * cosine
             stiffness += patch.share * result.stiffness * cosine * cosine
@@ -178,4 +198,4 @@ def solve_patches(n, pressed, brief, enters, arrays):
     total.z, total.n_patches = motion.z, n
     mirror_answer(motion.mirror, n, arrays.contacts, total)
     compare_forces(motion.mirror, total)
-    return stiffness / normal if normal > 0.0 else 0.0
+    return stiffness / normal if normal > 0.0 else 0.0, most
