@@ -9,6 +9,8 @@ from dataclasses import replace
 from functools import partial
 from typing import Any
 
+import numpy as np
+
 from contact.arrays import Array
 from contact.errors import ContactError, require_flag, require_kind, require_number, require_pair
 from contact.friction import Friction, as_friction
@@ -316,4 +318,10 @@ def _patch_coefficients(
         coarse = on_strips(creepage, size=(n, n), start=None, conformal=False, doubted=True)
         return linear.flexibilities(coarse.strips, material, n)
 
-    return linear.coefficients(linear.extrapolated(at), first.strips, material)
+    try:
+        return linear.coefficients(linear.extrapolated(at), first.strips, material)
+    except np.linalg.LinAlgError:
+        raise ContactError(
+            f"tangential = {method.name!r}: the {first.n_patches} patches of normal = {first.normal!r} lie over each other, so "
+            "there is no linear theory of them; take another normal method"
+        ) from None

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 import contact
-from contact.geometry import files, inspection, profile, repair
+from contact.geometry import files, inspection, profile, repair, scans
 from contact.geometry.profile import Profile
 from contact.geometry.wheelset import TAPE_FROM_FLANGE_BACK
 from contact.kernels.records import MAX_PATCHES
@@ -131,7 +131,7 @@ CREEPAGES = (
 )
 
 
-#: Names in `contact.geometry.inspection` of the numbers by which the page judges a profile file.
+#: Names in `contact.geometry.inspection` and `scans` of the numbers by which the page judges a profile file.
 RULES = (
     *(
         "NARROWEST",
@@ -201,7 +201,7 @@ def _starts(table: Table, rows: Iterable[Variable], n_values: int) -> np.ndarray
 def rules() -> dict[str, Any]:
     """Return the numbers by which the page reads and judges a profile file: those of the library."""
     return {
-        **{name.lower(): float(getattr(inspection, name)) for name in RULES},
+        **{name.lower(): float((vars(scans) | vars(inspection))[name]) for name in RULES},
         "units": inspection.UNITS,
         "usual_slope": {kind: float(slope) for kind, slope in inspection.USUAL_SLOPE.items()},
         "turned_by": {kind: float(angle) for kind, angle in inspection.TURNED_BY.items()},

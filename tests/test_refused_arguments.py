@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 import contact
-from contact import damage
+from contact import damage, inp
 from contact.accumulation import Section
 from contact.arrays import as_array, require_numbers
 from contact.errors import require_integer
@@ -110,6 +110,22 @@ REFUSED: list[tuple[Callable[[], Any], str]] = [
     (lambda: contact.Separation([0, 1, 2], [0, 0], 1.0), "g has shape"),
     (lambda: contact.Separation([0, 1, 2], [0, math.nan, 0], 1.0), r"g\[1\] = nan"),
     (lambda: contact.Separation([0, 1, 2], [0, 0, 0], [1, 0, 1]), r"A\[1\] = 0"),
+    (lambda: contact.Separation.hertzian(1e-9, 1e-9), r"A = 1e-09 is outside the allowed range \[1e-06, 1e\+09\]"),
+    (lambda: contact.Separation.hertzian(1.0, 1e300), r"B = 1e\+300 is outside the allowed range \[1e-06, 1e\+09\]"),
+    (lambda: contact.hertz(1e100, 1e300, load=1.0), r"A = 1e\+100 is outside the allowed range"),
+    (
+        lambda: contact.Separation([0, 1, 2], [0, 0, -1e200], 1.0),
+        r"g\[2\] = -1e\+200 is outside the allowed range \[-1",
+    ),
+    (
+        lambda: contact.Separation([0, 1e-13, 2], [0, 0, 0], 1.0),
+        r"y must increase, by 1e-12 at least; y\[0\] = 0, y\[1",
+    ),
+    (lambda: contact.Material(1e-20, 0.28), r"shear_modulus = 1e-20 is outside the allowed range \[0.001, 1e\+15\]"),
+    (
+        lambda: inp.solve("case.inp"),
+        r"cases = 'case.inp' are no cases; contact.inp.read\(path\) returns those of a file",
+    ),
     (lambda: contact.Separation([0, 1, 2], [0, 0, 0], "steep"), "A = 'steep' is not a number"),
     (lambda: contact.Separation([0, 1, 2], [0, 0, 0], 1.0, [0, math.inf, 0]), r"x_c\[1\] = inf"),
     (lambda: contact.Separation(ELLIPSE.y, ELLIPSE.g, 1.0, tilt=1.1e3), r"outside the allowed range \[-1000, 1000\]"),

@@ -53,15 +53,18 @@ enum {
     N(n_wheel, "n_wheel", WHOLE, 4, MOST_NODES) N(n_rail, "n_rail", WHOLE, 4, MOST_NODES)                 \
     N(which_forces, "which", WHOLE, WR_FORCE_X, WR_FORCE_X + WR_FORCE_Y)                                  \
     N(body, "body", WHOLE, WR_BODY_RAIL, WR_BODY_WHEEL) N(poisson, "poisson_ratio", REAL, 0.0, 0.5)       \
-    N(sep_A, "separation.A", POSITIVE, 0.0, INFINITY) N(sep_tilt, "separation.tilt", REAL, -1e3, 1e3)     \
+    N(sep_A, "separation.A", REAL, WR_LEAST_CURVATURE, WR_LARGEST_CURVATURE)                              \
+    N(sep_y, "separation.y", REAL, -WR_LARGEST_LENGTH, WR_LARGEST_LENGTH)                                 \
+    N(sep_g, "separation.g", REAL, -WR_LARGEST_LENGTH, WR_LARGEST_LENGTH)                                 \
+    N(sep_x_c, "separation.x_c", REAL, -WR_LARGEST_LENGTH, WR_LARGEST_LENGTH)                             \
+    N(sep_tilt, "separation.tilt", REAL, -WR_LARGEST_TILT, WR_LARGEST_TILT)                               \
     N(z, "z", REAL, 0.0, INFINITY) N(force_x, "Fx", REAL, -INFINITY, INFINITY)                            \
     N(force_y, "Fy", REAL, -INFINITY, INFINITY)
 
 /* Other arguments. */
 #define ARGUMENTS(X)                                                                                                 \
     X(memory, "memory") X(bytes, "bytes") X(options, "options") X(result, "result") X(separation, "separation")      \
-    X(n, "n") X(sep_n, "separation.n") X(sep_y, "separation.y") X(sep_g, "separation.g")                             \
-    X(sep_x_c, "separation.x_c") X(problem, "case") X(jacobian, "jacobian")                                          \
+    X(n, "n") X(sep_n, "separation.n") X(problem, "case") X(jacobian, "jacobian")                                    \
     X(fields, "fields") X(parameters, "parameters") X(damage, "damage") X(n_separations, "n_separations")            \
     X(which, "which") X(cases, "cases") X(results, "results") X(wheel, "wheel") X(rail, "rail")                      \
     X(wheel_y, "wheel.y") X(wheel_z, "wheel.z") X(wheel_angle, "wheel.angle") X(rail_y, "rail.y")                    \

@@ -4,25 +4,22 @@
 
 #include "internal.h"
 
+static int check_all(const double *values, int64_t n, int argument) {
+    TRY(aligned(values, argument));
+    for (int64_t i = 0; i < n; i++) TRY(wri_check_number(values[i], argument));
+    return 0;
+}
+
 static int check_separation(const wr_separation *s, int64_t most) {
     TRY(aligned(s, A_separation));
     TRY(among(s->n, 3, most, A_sep_n));
-    TRY(aligned(s->y, A_sep_y));
-    TRY(aligned(s->g, A_sep_g));
-    TRY(aligned(s->A, A_sep_A));
-    TRY(wri_finite_all(s->y, s->n, A_sep_y));
-    TRY(wri_finite_all(s->g, s->n, A_sep_g));
+    TRY(check_all(s->y, s->n, A_sep_y));
+    TRY(check_all(s->g, s->n, A_sep_g));
     for (int64_t i = 1; i < s->n; i++)
-        if (!(s->y[i] > s->y[i - 1])) return bad(A_sep_y, R_ORDER);
-    for (int64_t i = 0; i < s->n; i++) TRY(wri_check_number(s->A[i], A_sep_A));
-    if (s->x_c != NULL) {
-        TRY(aligned(s->x_c, A_sep_x_c));
-        TRY(wri_finite_all(s->x_c, s->n, A_sep_x_c));
-    }
-    if (s->tilt != NULL) {
-        TRY(aligned(s->tilt, A_sep_tilt));
-        for (int64_t i = 0; i < s->n; i++) TRY(wri_check_number(s->tilt[i], A_sep_tilt));
-    }
+        if (!(s->y[i] - s->y[i - 1] >= WR_LEAST_STEP)) return bad(A_sep_y, R_ORDER);
+    TRY(check_all(s->A, s->n, A_sep_A));
+    if (s->x_c != NULL) TRY(check_all(s->x_c, s->n, A_sep_x_c));
+    if (s->tilt != NULL) TRY(check_all(s->tilt, s->n, A_sep_tilt));
     return 0;
 }
 

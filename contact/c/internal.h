@@ -54,7 +54,7 @@ static inline double is_wide(void) { return 0.0; }
     X(SMALL, "the memory or the array is smaller than needed")                                                   \
     X(ALIGNED, "the address is not a multiple of 8")                                                             \
     X(NO_ANSWER, "there is no answer yet: call solve first")                                                     \
-    X(ORDER, "the values do not increase")                                                                       \
+    X(ORDER, "the values do not increase enough")                                                                  \
     X(DIFFERS, "the value differs from that of the options with which the memory was initialised")               \
     X(COINCIDE, "two neighbouring points coincide")                                                              \
     X(STEEP, "the profile is too steep at the tape circle or at its top: too few points can touch")              \

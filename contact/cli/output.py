@@ -16,7 +16,7 @@ from rich.console import Console
 from contact.cli.document import document, running
 from contact.cli.extras import EXTRAS, absent_modules
 from contact.cli.groups import expanded
-from contact.errors import ContactError, PlausibilityWarning
+from contact.errors import ContactError, ModelWarning, PlausibilityWarning
 from contact.results import Status
 from contact.study.files import PICTURES, csv_of, require_writable, write
 
@@ -43,9 +43,11 @@ _WORDS = (
     (r"\bset (unit|side|section)\b", r"set --profile-\1"),
     (r" \(throw=False [^)]*\)", ""),
     ("of the given separation; extend y", "of a profile"),
+    (r"^distance = (\S+ m is \S+ of the \d+ elements)", r"--step \1"),
 )
 #: Exit status of a command, besides 0.
 MISSING, BAD_INPUT, NOT_TRUSTED, INTERRUPTED = 1, 2, 3, 130
+_OWN = PlausibilityWarning, ModelWarning
 Command = TypeVar("Command", bound=Callable[..., None])
 
 
@@ -61,7 +63,8 @@ def reported(command: Command) -> Command:
     def wrapper(*args: Any, **kwargs: Any) -> None:
         try:
             with warnings.catch_warnings(), running(name, kwargs):
-                warnings.simplefilter("default", PlausibilityWarning)  # once, though both wheels have the same load
+                for kind in _OWN:
+                    warnings.simplefilter("default", kind)  # once, though both wheels have the same load
                 warnings.showwarning = _teller(kwargs)
                 command(*args, **kwargs)
         except ContactError as error:
@@ -100,7 +103,7 @@ def _teller(given: Mapping[str, Any]) -> Callable[..., None]:
     said: set[str] = set()
 
     def say(message: Warning | str, category: type[Warning], *place: Any) -> None:
-        kind = "warning" if issubclass(category, PlausibilityWarning) else category.__name__
+        kind = "warning" if issubclass(category, _OWN) else category.__name__
         line = f"contact: {kind}: {in_options(str(message), given)}"
         if line not in said:
             said.add(line)

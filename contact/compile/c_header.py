@@ -17,7 +17,19 @@ from contact.damage import DamageParameters
 from contact.friction import as_friction
 from contact.geometry.wheelset import TAPE_FROM_FLANGE_BACK
 from contact.inputs.material import STEEL
-from contact.inputs.options import ITERATIONS, MEMBERS, SAMPLES, SEPARATION_SAMPLES, SURFACE, Real, Whole
+from contact.inputs.options import (
+    CURVATURE,
+    ITERATIONS,
+    LEAST_STEP,
+    LENGTH,
+    MEMBERS,
+    SAMPLES,
+    SEPARATION_SAMPLES,
+    SURFACE,
+    TILT,
+    Real,
+    Whole,
+)
 from contact.inputs.plausibility import USUAL
 from contact.kernels import records
 from contact.kernels.enumerations import FrictionLaw, Height, LoadKind, SlipVelocity, Status, WearLaw
@@ -115,6 +127,11 @@ def _constants() -> str:
         **{f"WR_STRIP_{Strip(row).name}": int(row) for row in (Strip.Y, Strip.DY, Strip.PATCH, Strip.A, Strip.P0)},
         **{f"WR_FIELD_{row.name}": int(row) for row in Field},
         "WR_DEFAULT_ITERATIONS": ITERATIONS.usual,
+        "WR_LEAST_CURVATURE": CURVATURE.least,
+        "WR_LARGEST_CURVATURE": CURVATURE.most,
+        "WR_LARGEST_LENGTH": LENGTH.most,
+        "WR_LARGEST_TILT": TILT.most,
+        "WR_LEAST_STEP": LEAST_STEP,
         "WR_SEPARATION_SAMPLES": _limits(SEPARATION_SAMPLES),
         "WR_PAIR_SAMPLES": _limits(SAMPLES),
         "WR_TAPE_FROM_FLANGE_BACK": TAPE_FROM_FLANGE_BACK,

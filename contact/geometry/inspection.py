@@ -8,8 +8,8 @@ from typing import Literal
 
 import numpy as np
 
-from contact.arrays import Array
 from contact.geometry.roughness import Points, backward, kinks, noise, spike_heights, steep, turns
+from contact.geometry.scans import length, scans, turning
 
 Kind = Literal["wheel", "rail"]
 
@@ -29,12 +29,8 @@ CROWN_FROM_GAUGE = 0.036  # half the width of a rail's head [m], from its gauge 
 TIP_SHARE = 0.3  # share of the width up to which an extreme point is a flange's tip, and from which a rail's crown
 TIP_RISE, HEAD_DROP = 3e-3, 8e-3  # least height [m] of a flange's tip over its back, of a rail's crown over both ends
 
-JUMP = 0.4  # of the extent: a step this long starts another scan
-_OVERLAP = 0.1  # of the narrower of two parts: those of one scan with a gap overlap less
 LOOPS = 4.0  # length of the path over the extent beyond which rows are not in order; S1002 has 1.5
 MOST_SCANS = 10
-RETURN = 0.2  # share of the points on the way back that makes a backward scan
-_ASIDE, _FOLD = 0.1, 8  # of the extent: how far it may lie aside of the way out; points on either side of its turn
 _GAP, _OVER_SPACING = 2.5e-3, 8.0  # least length of a gap [m], and over the median spacing
 ROUGH = 3e-3  # error of tangents [rad] above which noise is reported
 TANGENT_OF_NOISE = 1.2  # error of a spline's tangents over noise/spacing (docs/use/profiles.md, measured)
@@ -72,6 +68,7 @@ class Fault(StrEnum):
     TURNED = "turned"
     FLANGE = "flange"
     FLAT = "flat"
+    PART = "not whole"
 
 
 #: Faults with which the points are no curve: `read` refuses them unless it may repair them.
@@ -110,10 +107,10 @@ def order(points: Points) -> list[Finding]:
     if len(points) < 8 or extent == 0.0:
         return []
     parts = scans(points)
-    lengths = [_length(part) / extent for part in parts]
+    lengths = [length(part) / extent for part in parts]
     cure = "repair=True"
     if len(parts) > MOST_SCANS or max(lengths) > LOOPS:
-        path = _length(points) / extent
+        path = length(points) / extent
         seen = f"the path through the points is {path:.0f} times as long as the profile is wide"
         return [Finding(Fault.UNSORTED, seen, f"{cure} sorts them along the profile", points[:0])]
     if len(parts) > 1:
@@ -167,7 +164,6 @@ def shape(points: Points, resolution: float = 0.0, scale: float = 1.0) -> list[F
 def place(points: Points, kind: Kind, scale: float = 1.0) -> list[Finding]:
     """Return a turn, and offsets from the zero that this library expects, for points in the right-side convention."""
     y, z = points.T
-    found: list[Finding] = []
     if turn := turned(points / scale, kind):
         slope = np.degrees(turn + USUAL_SLOPE[kind])
         part, usual = ("tread", "it rises by 1 to 3°") if kind == "wheel" else ("top", "it is level within 3°")
@@ -175,6 +171,7 @@ def place(points: Points, kind: Kind, scale: float = 1.0) -> list[Finding]:
             f"the {part} {'falls' if slope > 0.0 else 'rises'} by {abs(slope):.1f}° to the field side, usually {usual}"
         )
         return [Finding(Fault.TURNED, seen, f"rotated({-turn:.3g}) turns the {kind} back", points[:0])]
+    found = _part(points, kind, scale)
     if kind == "rail":
         deeper = z[-1] - z[: np.argmin(z) + 1].max()
         if deeper > _DEEPER * scale:
@@ -211,20 +208,38 @@ def place(points: Points, kind: Kind, scale: float = 1.0) -> list[Finding]:
     return found
 
 
-def turned(points: Points, kind: Kind) -> float:
-    """Return by how much a profile is turned about x [rad], positive from y towards z; 0 if it lies as usual."""
+def _middle(points: Points, kind: Kind) -> tuple[float, float, bool]:
+    """Return between which y a wheel's tread or a rail's top is judged [m], and whether a flange or a gauge face says so."""
     y, z = points.T
     if kind == "wheel":
-        middle = y[np.argmax(z)] + TIP_FROM_TAPE if has_flange(points) else 0.0
-        low, high = (middle + end for end in TREAD)
+        sure, (low, high) = has_flange(points), TREAD
+        middle = y[np.argmax(z)] + TIP_FROM_TAPE if sure else 0.0
     else:
         gauge = np.flatnonzero((z > z.min() + GAUGE_DEPTH) & (np.arange(z.size) < np.argmin(z)))
         middle, top = 0.5 * (y.min() + y.max()), int(np.argmin(z))
-        if gauge.size:
+        sure, (low, high) = gauge.size > 0, TOP
+        if sure:
             middle = y[gauge[-1]] + CROWN_FROM_GAUGE
             if z[top:].max() > z[top] + HEAD_DROP:  # the field side is there: a head may be narrower
                 middle = min(middle, 0.5 * (y[gauge[-1]] + y.max()))
-        low, high = (middle + end for end in TOP)
+    return middle + low, middle + high, sure
+
+
+def _part(points: Points, kind: Kind, scale: float) -> list[Finding]:
+    """Return a finding for a wheel or a rail whose tread or top is known in part only."""
+    low, high, sure = _middle(points / scale, kind)
+    end = float(points[:, 0].max()) / scale
+    if not sure or end > high - 0.2 * (high - low):
+        return []
+    part = "tread" if kind == "wheel" else "top"
+    seen = f"the {part} is known up to y = {_mm(end)} only, wheels and rails touch up to {_mm(high)}"
+    return [Finding(Fault.PART, seen, "measure it whole: no option fills it", points[-1:])]
+
+
+def turned(points: Points, kind: Kind) -> float:
+    """Return by how much a profile is turned about x [rad], positive from y towards z; 0 if it lies as usual."""
+    y, z = points.T
+    low, high, _ = _middle(points, kind)
     inside = (y > low) & (y < high)
     if np.count_nonzero(inside) < 5 or np.ptp(y[inside]) < 0.8 * (high - low):
         return 0.0
@@ -338,57 +353,6 @@ def _fitting(width: float, unit: float) -> list[str]:
     widths = {name: width * size / unit for name, size in UNITS.items()} if unit and width else {}
     likely = sorted(widths, key=lambda name: abs(np.log(widths[name] / USUAL_WIDTH)))
     return [name for name in likely if NARROWEST <= widths[name] <= WIDEST]
-
-
-def scans(points: Points) -> list[Points]:
-    """Return the parts of the points between long jumps back, without parts of one or two points. A jump ahead is a gap."""
-    step = np.hypot(*np.diff(points, axis=0).T)
-    jumps = np.flatnonzero(step > JUMP * np.hypot(*np.ptp(points, axis=0))) + 1
-    found: list[Points] = []
-    for part in np.split(points, jumps):
-        if len(part) < 3:
-            continue
-        if found and len(found[-1]) < len(points) and _goes_on(found[-1][:, 0], part[:, 0]):
-            found[-1] = np.concatenate((found[-1], part))
-        else:
-            found.append(part)
-    return found or [points]
-
-
-def _goes_on(before: Array, after: Array) -> bool:
-    """Return whether the y of a part lie beyond those of the part before."""
-    overlap = min(before.max(), after.max()) - max(before.min(), after.min())
-    return bool(overlap <= _OVERLAP * min(np.ptp(before), np.ptp(after)))
-
-
-def turning(points: Points) -> int:
-    """Return the index at which a scan turns and comes back over the way that it went; 0 if it does not."""
-    far = int(np.argmax(np.hypot(*(points - points[0]).T)))
-    back = len(points) - 1 - far
-    returned = np.hypot(*(points[-1] - points[far])) > JUMP * np.hypot(*(points[far] - points[0]))
-    if not (returned and back > RETURN * len(points)):
-        return 0
-    again = points[far :: max(1, back // 50)]
-    aside = np.sqrt([((points[: far + 1] - point) ** 2).sum(axis=1).min() for point in again])
-    if np.median(aside) > _ASIDE * np.hypot(*np.ptp(points, axis=0)):
-        return 0
-    most = len(points) // 4
-    near = range(max(_FOLD, far - most), min(len(points) - 1 - _FOLD, far + most))
-    apart = {k: _apart(points[k - _FOLD : k + _FOLD + 1]) for k in near}
-    fold = min(apart, key=apart.__getitem__, default=far)
-    return fold if apart.get(fold, 1.0) < 0.5 else far
-
-
-def _apart(points: Points) -> float:
-    """Return how far the points before the middle one lie from those after it, over their way from it: 0 at a fold."""
-    middle = len(points) // 2
-    before, after = points[:middle][::-1], points[middle + 1 :]
-    way = np.abs(before - points[middle]).sum() + np.abs(after - points[middle]).sum()
-    return float(np.abs(before - after).sum() / way) if way else 1.0
-
-
-def _length(points: Points) -> float:
-    return float(np.hypot(*np.diff(points, axis=0).T).sum())
 
 
 def _count(n: int) -> str:

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from contact.geometry.inspection import Fault, Finding, Kind, Points, order, scans, turning
+from contact.geometry.inspection import Fault, Finding, Kind, Points, order
 from contact.geometry.roughness import backward, spikes
+from contact.geometry.scans import scans, turning
 
 NEAREST = 1e-6  # least distance of two points [m]
 _CLOSED = 0.05  # of the extent: the greatest distance of the ends of a closed outline

@@ -41,10 +41,9 @@ from contact.inputs.material import STEEL, Material
 from contact.inputs.options import APPROACH, LOAD
 from contact.inputs.separation import Separation
 from contact.instance.ownership import OwnsArrays, one_thread, within
-from contact.results import Status
+from contact.results import Status, doubt_step
 
-#: Given forces (Fx, Fy) on the wheel [N]; None where the motion is given.
-Force = float | tuple[float | None, float | None]
+Force = float | tuple[float | None, float | None]  # (Fx, Fy) on the wheel [N]; None where the motion is given
 _KEPT = ("_amount", "_gap", "_grid", "_state", "_normal", "_pressed", "distance", "speed", "friction", "law", "_local")
 #: Turns between pressure and traction of unlike bodies.
 _TURNS = 40
@@ -136,7 +135,7 @@ class Transient(OwnsArrays):
         self._state = self._stepper.fresh()
         self._normal: Normal | None = None
         self._pressed: Any = None
-        self.distance = 0.0
+        self.distance, self.told = 0.0, set[str]()  # for what there was a ModelWarning
 
     def _kept(self) -> Any:
         return {name: self.__dict__[name] for name in _KEPT}
@@ -207,8 +206,8 @@ class Transient(OwnsArrays):
         creepage : Creepage
             Wheel minus rail over V, constant in the step.
         distance : float
-            Rolled in this step [m], positive, not longer than the grid. The error of a step is of first order in the distance;
-            one to two elements are usual. Much shorter steps bring wiggles of the traction from element to element.
+            Rolled in this step [m], positive, not longer than the grid. One element is best: much shorter steps make the
+            traction uneven, and a `ModelWarning` tells steps of more than an element and a tenth of the contact's length.
         load, approach, force, gap :
             As for `shift`; with a force, the creepage in its direction is found.
         sliding : bool
@@ -222,6 +221,7 @@ class Transient(OwnsArrays):
         step = require_number("distance", distance, 0.0, self.longest_step, open_minimum=True)
         within(self.take)(load, approach, gap)
         solution = self._step(as_creepage(creepage), step, self._coefficient(creepage), force, sliding)
+        doubt_step(self.told, step, self._stepper.dx, int(np.count_nonzero(self._state.p.any(axis=0))))
         self.distance += step
         return solution
 
@@ -324,9 +324,8 @@ class Transient(OwnsArrays):
 
     def _coefficient(self, creepage: Creepage) -> float | None:
         """Return the coefficient of a step [-]; None where it is that of each element."""
-        if self._local:
-            return None
-        return float(self.friction.coefficient(self.speed * math.hypot(creepage.longitudinal, creepage.lateral)))
+        slip = math.hypot(creepage.longitudinal, creepage.lateral)
+        return None if self._local else float(self.friction.coefficient(self.speed * slip))
 
     @one_thread
     def take(self, load: float | None = None, approach: float | None = None, gap: Gap | None = None) -> None:

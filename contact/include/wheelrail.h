@@ -66,11 +66,11 @@ WR_API int wr_method_number(const char *kind, const char *name);
 /* Undeformed gap between wheel and rail over the lateral coordinate of the contact plane. */
 typedef struct {
     int64_t n;         /* number of samples, at least 3 */
-    const double *y;   /* strictly increasing [m] */
+    const double *y;   /* increasing by WR_LEAST_STEP at least [m]; y, g and x_c within WR_LARGEST_LENGTH */
     const double *g;   /* gap [m]; the approach is measured from g = 0 */
-    const double *A;   /* half curvature along the rolling direction, positive [1/m] */
+    const double *A;   /* half curvature along the rolling direction [1/m], WR_LEAST_CURVATURE to WR_LARGEST_CURVATURE */
     const double *x_c; /* longitudinal position of the least gap [m]; NULL: 0 */
-    const double *tilt; /* slope of the bent surface, at most 1000; NULL: 0 */
+    const double *tilt; /* slope of the bent surface within WR_LARGEST_TILT; NULL: 0 */
 } wr_separation;
 
 /* Arrays of the caller for fields, each of n_strips_most * n_elements numbers; NULL: not wanted.

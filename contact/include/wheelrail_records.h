@@ -39,6 +39,11 @@
 #define WR_FIELD_SY 6
 #define WR_FIELD_STICK 7
 #define WR_DEFAULT_ITERATIONS 60
+#define WR_LEAST_CURVATURE 1e-06
+#define WR_LARGEST_CURVATURE 1000000000.0
+#define WR_LARGEST_LENGTH 100000.0
+#define WR_LARGEST_TILT 1000.0
+#define WR_LEAST_STEP 1e-12
 #define WR_SEPARATION_SAMPLES 3, 100000, 101
 #define WR_PAIR_SAMPLES 5, 2001, 81
 #define WR_TAPE_FROM_FLANGE_BACK 0.07
@@ -417,7 +422,7 @@ typedef struct {
     int64_t n_samples; /* most of a separation, 3 to 100000, default 101; of a pair's patches 5 to 2001, default 81 */
     int64_t max_iterations; /* of the strip half space; 1 to 1000, default 60 */
     int64_t conformal; /* 1: the contact angle varies over the patch */
-    double shear_modulus; /* [Pa]; above 0, default 8.2e+10 */
+    double shear_modulus; /* [Pa]; 0.001 to 1e+15, default 8.2e+10 */
     double poisson_ratio; /* [-]; 0 to 0.5, default 0.28 */
     double pressure_limit; /* [Pa]; 0 or infinity: none; from 0 on */
 } wr_contact_options;
@@ -477,7 +482,7 @@ typedef struct {
 /* M(member, kind, least, most, default, ...): ranges of the numbers that a caller gives. */
 #define WR_SURFACE_RANGES(M, ...) \
     M(speed, REAL, 0.0, INFINITY, 20.0, __VA_ARGS__) \
-    M(G, POSITIVE, 0.0, INFINITY, 82000000000.0, __VA_ARGS__) \
+    M(G, REAL, 0.001, 1000000000000000.0, 82000000000.0, __VA_ARGS__) \
     M(nu, REAL, 0.0, 0.5, 0.28, __VA_ARGS__) \
     M(pressure_limit, LIMIT, 0.0, INFINITY, INFINITY, __VA_ARGS__) \
     M(max_iterations, WHOLE, 1, 1000, 60, __VA_ARGS__) \
@@ -512,7 +517,7 @@ typedef struct {
     M(n_elements, WHOLE, 4, 1000, 20, __VA_ARGS__) \
     M(max_iterations, WHOLE, 1, 1000, 60, __VA_ARGS__) \
     M(conformal, WHOLE, 0, 1, 0, __VA_ARGS__) \
-    M(shear_modulus, POSITIVE, 0.0, INFINITY, 82000000000.0, __VA_ARGS__) \
+    M(shear_modulus, REAL, 0.001, 1000000000000000.0, 82000000000.0, __VA_ARGS__) \
     M(poisson_ratio, REAL, 0.0, 0.5, 0.28, __VA_ARGS__) \
     M(pressure_limit, LIMIT, 0.0, INFINITY, INFINITY, __VA_ARGS__)
 #define WR_PAIR_OPTIONS_RANGES(M, ...) \

@@ -16,6 +16,7 @@ REASONS: dict[str, str] = {
     "numbers from a file": "C = 9: influence numbers from a file",
     "rigid slip of each element": "E = 2, 3, 9 by strips or with M = 2, 3, 5, or E = 2, 3 with T = 2",
     "direction": "a rolling direction CHI other than 0 and 180 degrees",
+    "place of spin": "FACPHI other than 1/6, the part of a step at which spin counts: leave it out, or write .1667",
     "step of rolling": "DQ other than DX in steady rolling with G = 2",
     "temperature": "L = 6 by strips, or with unlike thermal constants",
     "factors": "IPLAN = 4: patches whose influence on each other is reduced",

@@ -50,6 +50,8 @@ def solve(
     list of Result
         In the order of the cases. A case that cannot run has the status "refused", a named reason and a message.
     """
+    if not isinstance(cases, Sequence) or not all(isinstance(case, Case) for case in cases):
+        raise ContactError(f"cases = {cases!r} are no cases; contact.inp.read(path) returns those of a file")
     chains, results, done = chains_of(cases), {}, 0
     if workers > 1 and len(chains) > 1:
         parts = _parts(chains, 4 * workers)

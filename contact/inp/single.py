@@ -43,7 +43,11 @@ def require_supported(case: Case, fast: bool = False) -> None:
             f"E = {digits['E']}",
         ),
         ("damping", digits["M2"] == 2 and any(case[name] for name in ("CDAMPN", "CDAMPT")), "M2 = 2"),
-        ("direction", digits["T"] in (2, 3) and abs(case["FACPHI"] - 1.0 / 6.0) > 1e-9, "FACPHI"),
+        (
+            "place of spin",
+            digits["T"] in (2, 3) and abs(case["FACPHI"] - 1.0 / 6.0) > 1e-4,
+            f"FACPHI = {case.get('FACPHI', 0.0):g}",
+        ),
         (
             "step of rolling",
             digits["T"] == 3 and digits["G"] == 2 and digits["M"] == 0 and _other_step(case),

@@ -6,7 +6,7 @@ import math
 from dataclasses import dataclass
 
 from contact.errors import require_number
-from contact.inputs.options import HARDNESS, SHEAR_YIELD, SURFACE
+from contact.inputs.options import HARDNESS, SHEAR_MODULUS, SHEAR_YIELD, SURFACE
 from contact.inputs.plausibility import doubt_value
 
 
@@ -55,7 +55,7 @@ class Material:
     coupling: float = 0.0
 
     def __post_init__(self) -> None:
-        SURFACE["G"].require("shear_modulus", self.shear_modulus)
+        SHEAR_MODULUS.require("shear_modulus", self.shear_modulus)
         SURFACE["nu"].require("poisson_ratio", self.poisson_ratio)
         HARDNESS.require("hardness", self.hardness)
         SHEAR_YIELD.require("shear_yield", self.shear_yield)
@@ -84,7 +84,7 @@ class Material:
 
 
 #: Wheel steel on rail steel, with the constants of the reference computations (G = 82 GPa, nu = 0.28).
-STEEL = Material(SURFACE["G"].usual, SURFACE["nu"].usual)
+STEEL = Material(SHEAR_MODULUS.usual, SURFACE["nu"].usual)
 #: Allowed range of λ, ρ and c in SI units. It includes all solids, and the product does not overflow.
 THERMAL_RANGE = (1e-6, 1e9)
 

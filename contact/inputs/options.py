@@ -75,6 +75,11 @@ SEPARATION_SAMPLES = Whole(101, 3, 100_000)
 REACH = Real(0.06, 0.01, 0.3)
 #: Load [N] and approach [m]: sums and squares of much larger ones overflow.
 LOAD, APPROACH = Real(0.0, 0.0, 1e15), Real(0.0, -1e15, 1e15)
+#: Half curvature [1/m] and shear modulus [Pa]: bodies that are flatter touch within the round-off of their gap, and products of
+#: much larger or smaller ones overflow.
+CURVATURE, SHEAR_MODULUS = Real(1.0, 1e-6, 1e9), Real(82e9, 1e-3, 1e15)
+#: Positions and gaps of a separation [m], its slope, and the least distance of two positions [m].
+LENGTH, TILT, LEAST_STEP = Real(0.0, -1e5, 1e5), Real(0.0, -1e3, 1e3), 1e-12
 #: Coefficient of friction: above the largest, squares could overflow. Temperatures [K], the last one above all melting points.
 FRICTION, ROOM_TEMPERATURE, HOTTEST = Real(0.3, 0.0, 1e6), 293.15, 1e5
 #: Temperature of the bodies, at which friction begins to fall, and rise over which it falls [K].
@@ -85,7 +90,7 @@ HARDNESS, SHEAR_YIELD = Real(2.7e9, 0.0, above=True), Real(300e6, 0.0, above=Tru
 HOT_FACTOR = Real(1.0, 0.0, 1.0)
 #: Creepage [-] and spin [1/m].
 CREEPAGE = Real(0.0, -LARGEST_CREEPAGE, LARGEST_CREEPAGE)
-#: Rotation of the wheel about the plane's y axis per metre rolled [1/m].
+#: Rotation of the wheel about the plane's y axis per metre rolled [1/m]; the largest is that of a radius of 1 mm.
 ROLLING = Real(0.0, -1e3, 1e3)
 _POSITIVE, _SHARE = Real(1.0, 0.0, above=True), Real(1.0, 0.0, 1.0)
 _PART, _SWITCH, _ANGLE = Real(1.0, 0.0, 1.0, above=True), Whole(0, 0, 1), Real(0.0, -LARGEST_ANGLE, LARGEST_ANGLE)
@@ -106,7 +111,7 @@ _ANGLES = {
 #: Material and friction of a case: members of the record CASE. Defaults are those of steel.
 SURFACE: dict[str, Whole | Real] = {
     "speed": Real(20.0, 0.0),
-    "G": Real(82e9, 0.0, above=True),
+    "G": SHEAR_MODULUS,
     "nu": Real(0.28, 0.0, 0.5),
     "pressure_limit": Real(math.inf, 0.0, endless=True),
     "max_iterations": ITERATIONS,

@@ -10,15 +10,13 @@ from numpy.typing import ArrayLike, NDArray
 
 from contact.arrays import as_array
 from contact.core import Packed
-from contact.errors import ContactError, require_number
-from contact.inputs.options import ROLLING
+from contact.errors import ContactError
+from contact.inputs.options import CURVATURE, LEAST_STEP, LENGTH, ROLLING, TILT, Real
 from contact.inputs.plausibility import doubt_value
 from contact.kernels.arrays import Samples
 from contact.kernels.separation import HERTZIAN_POINTS, fill_hertzian
 from contact.view.notebook import Sketch
 
-#: Largest slope of the surface [-], and largest rolling [1/m], which is that of a wheel with a radius of 1 mm.
-LARGEST_TILT = 1e3
 #: Notebooks show the gap up to this height above its minimum [mm].
 SKETCHED = 2.0
 
@@ -91,19 +89,15 @@ class Separation:
         if n < 3:
             raise ContactError(f"y has {n} points; at least 3 are needed")
         steps = np.diff(self.y)
-        if not (steps > 0.0).all():
-            i = int(np.argmax(steps <= 0.0))
-            raise ContactError(f"y must increase strictly; y[{i}] = {self.y[i]:g}, y[{i + 1}] = {self.y[i + 1]:g}")
-        self.g = _column("g", g, n)
-        self.A = _column("A", A, n)
-        _require_positive("A", self.A)
-        self.x_c = _column("x_c", x_c, n)
-        self.tilt = _column("tilt", tilt, n)
-        if (abs(self.tilt) > LARGEST_TILT).any():
-            i = int(np.argmax(abs(self.tilt)))
+        if not steps.min() >= LEAST_STEP:
+            i = int(np.argmin(steps))
             raise ContactError(
-                f"tilt[{i}] = {self.tilt[i]:g} is outside the allowed range [{-LARGEST_TILT:g}, {LARGEST_TILT:g}]"
+                f"y must increase, by {LEAST_STEP:g} at least; y[{i}] = {self.y[i]:g}, y[{i + 1}] = {self.y[i + 1]:g}"
             )
+        self.g = _column("g", g, n)
+        self.A = _column("A", A, n, CURVATURE)
+        self.x_c = _column("x_c", x_c, n)
+        self.tilt = _column("tilt", tilt, n, TILT)
         self.rolling = ROLLING.require("rolling", rolling)
         doubt_value("A", float(self.A[n // 2]))
         doubt_value("extent of y", float(self.y[-1] - self.y[0]))
@@ -115,8 +109,7 @@ class Separation:
 
         The interpolation between the samples reproduces the parabola exactly, so a patch of any size is resolved.
         """
-        A = require_number("A", A, 0.0, open_minimum=True)
-        B = require_number("B", B, 0.0, open_minimum=True)
+        A, B = CURVATURE.require("A", A), CURVATURE.require("B", B)
         y, g = np.empty(HERTZIAN_POINTS), np.empty(HERTZIAN_POINTS)
         fill_hertzian(A, B, y, g)
         return cls(y, g, A)
@@ -125,8 +118,7 @@ class Separation:
         """Return a copy with another gap `g` [m] and half curvature `A` [1/m] at the same `y`."""
         other = object.__new__(type(self))
         other.y, other.x_c, other.tilt, other.rolling = self.y, self.x_c, self.tilt, self.rolling
-        other.g, other.A = _column("g", g, self.y.size), _column("A", A, self.y.size)
-        _require_positive("A", other.A)
+        other.g, other.A = _column("g", g, self.y.size), _column("A", A, self.y.size, CURVATURE)
         other._lay_out()
         return other
 
@@ -161,15 +153,8 @@ class Separation:
         return f"Separation({self.y.size} points, y = {self.y[0]:g} … {self.y[-1]:g} m, least gap {self.g.min():g} m)"
 
 
-def _require_positive(name: str, array: NDArray[np.float64]) -> None:
-    """Raise a ContactError that names the smallest value if it is not positive."""
-    if not (array > 0.0).all():
-        i = int(np.argmin(array))
-        raise ContactError(f"{name}[{i}] = {array[i]:g} is outside the allowed range ]0, inf[")
-
-
-def _column(name: str, values: ArrayLike, n: int | None) -> NDArray[np.float64]:
-    """Return a float64 copy of `values` with length `n`. A scalar is repeated. All values must be finite."""
+def _column(name: str, values: ArrayLike, n: int | None, limits: Real = LENGTH) -> NDArray[np.float64]:
+    """Return a float64 copy of `values` with length `n`, within the limits. A scalar is repeated."""
     array = as_array(name, values)
     if array.ndim == 0 and n is not None:
         array = np.full(n, float(array))
@@ -179,4 +164,7 @@ def _column(name: str, values: ArrayLike, n: int | None) -> NDArray[np.float64]:
     if not np.isfinite(array).all():
         i = int(np.argmin(np.isfinite(array)))
         raise ContactError(f"{name}[{i}] = {array[i]} is not finite")
+    for i in (int(array.argmin()), int(array.argmax())) if array.size else ():
+        if not limits.least <= array[i] <= limits.most:
+            limits.require(f"{name}[{i}]", array[i])
     return array

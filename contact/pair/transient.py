@@ -269,6 +269,7 @@ class TransientPair(HalfspacePair):
         s = float(np.interp(patch.on_rail[0], *self._profile(at.station)))
         s = s if self.pair.side == "right" else -s
         here = Left(float(gap.x[0]), float(gap.x[0]) + u, float(gap.y[0]) + s, contact.state)
+        contact.told = self.pair.told
         contact.change(slip=slip)
         if math.isinf(step.distance):
             found = contact.roll_on(creepage)

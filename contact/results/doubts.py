@@ -57,6 +57,8 @@ _OTHERS = {
         "times load (limits.md); HalfspacePair of a SurfacePair takes the surfaces as they are",
     ),
 }
+#: Longest step of transient rolling that is not told, over the length of the contact (other_contacts.md).
+LONGEST_STEP = 0.1
 _BETTER = {"bend", "gap_error"}
 
 
@@ -90,3 +92,16 @@ def doubt_answer(
                 PlausibilityWarning if usual is _CARRIED else ModelWarning,
             )
             told.add(reason)  # not before: a warning may be an error
+
+
+def doubt_step(told: set[str], distance: float, dx: float, length: int) -> None:
+    """Warn once of a step [m] of more than one element of dx [m] and `LONGEST_STEP` of the contact of `length` elements."""
+    elements, allowed = distance / dx, max(1.0, LONGEST_STEP * length)
+    if "distance" in told or length == 0 or elements <= 1.001 * allowed:
+        return
+    warn(
+        f"distance = {distance:g} m is {elements:.3g} of the {length} elements of the contact's length; with more than "
+        f"{allowed:.3g} forces may be more than 0.05 of friction times load off (other_contacts.md); take one element",
+        ModelWarning,
+    )
+    told.add("distance")

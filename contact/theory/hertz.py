@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 from contact.errors import ContactError, require_number
 from contact.inputs.material import STEEL, Material
+from contact.inputs.options import CURVATURE
 from contact.kernels.hertz import coefficients, local_factors
 
 __all__ = ["HertzContact", "hertz", "local_factors"]
@@ -67,8 +68,7 @@ def hertz(
     >>> round(ellipse.p0 / 1e6), round(1e3 * ellipse.a, 2), round(1e3 * ellipse.b, 2)  # MPa, mm, mm
     (893, 5.88, 7.27)
     """
-    A = require_number("A", A, 0.0, open_minimum=True)
-    B = require_number("B", B, 0.0, open_minimum=True)
+    A, B = CURVATURE.require("A", A), CURVATURE.require("B", B)
     if (load is None) == (approach is None):
         raise ContactError(f"exactly one of load and approach is needed; load = {load}, approach = {approach}")
     m, n, r = coefficients(A, B)

@@ -57,6 +57,7 @@ def test_transient_gives_the_numbers_of_the_python_api(tmp_path):
     assert [float(row["Fx"]) for row in rows] == forces
     assert picture.stat().st_size > 10_000
     assert "step = 0 is outside" in call("transient", *words, "--step", 0, code=2).stderr
+    assert "warning: --step 0.004 m is 4 of the 12 elements" in call("transient", *words, "--step", 4e-3).stderr
     assert "needs 1e+07 steps" in call("transient", *words, "--distance", 1e4, code=2).stderr
 
 

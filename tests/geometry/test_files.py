@@ -1,5 +1,7 @@
 """Profile files: every format gives the same right-side profile in metres."""
 
+import warnings
+
 import numpy as np
 import pytest
 
@@ -171,6 +173,26 @@ def test_y_and_z_in_different_units_or_to_different_scales_are_named(tmp_path, s
     else:
         with pytest.warns(ProfileWarning, match=said):
             profile.read(path, kind=shape.kind, unit=unit, side="right")
+
+
+@pytest.mark.parametrize(
+    ("shape", "most", "said"),
+    [
+        (RAIL, 0.0, "top is known up to y = 0 mm only, wheels and rails touch up to 2"),
+        (RAIL, 0.01, "top is known up to y = 9.98 mm only"),
+        (WHEEL, 0.01, "tread is known up to y = 9.97 mm only, wheels and rails touch up to 20 mm"),
+        (RAIL, 0.02, None),
+        (WHEEL, 0.03, None),
+    ],
+)
+def test_a_head_or_a_tread_that_is_not_whole_is_told(tmp_path, shape, most, said):
+    path, inside = tmp_path / "half.txt", shape.y <= most + 2e-4
+    path.write_text(table(shape.y[inside], shape.z[inside]))
+    with warnings.catch_warnings(record=True) as told:
+        warnings.simplefilter("always")
+        profile.read(path, kind=shape.kind, unit="m", side="right")
+    assert [str(w.message).startswith("half.txt: not whole: the ") for w in told] == [True] * (said is not None)
+    assert said is None or said in str(told[0].message)
 
 
 def test_bounds_of_simpack_that_leave_no_point_are_named(tmp_path):

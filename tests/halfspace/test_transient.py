@@ -1,12 +1,14 @@
 """Shift and transient rolling: Mindlin's closed form, CONTACT's forces, the steady state, step lengths, errors."""
 
 import math
+import warnings
 
 import numpy as np
 import pytest
 
 import contact
 import reference
+from contact.errors import ModelWarning
 from contact.halfspace import Gap, Transient, norm, tang
 
 MU, STEEL, N = 0.3, reference.STEEL, 52359.87755983
@@ -73,6 +75,28 @@ def test_the_length_of_a_step_matters_little(elements):
     fine = [one.roll(creepage, distance=dx) for _ in range(12)][-1]
     coarse = [other.roll(creepage, distance=elements * dx) for _ in range(round(distance / dx / elements))][-1]
     assert coarse.Fx == pytest.approx(fine.Fx, abs=0.02 * MU * N)
+
+
+@pytest.mark.parametrize(("elements", "told"), [(1.0, False), (3.0, False), (3.2, True), (8.0, True)])
+def test_a_step_of_more_than_a_tenth_of_the_contact_is_told_once(elements, told):
+    """The contact is 31 elements long; 8 of them in one step are .07 of mu N off, 3 less than .05."""
+    patch = circle()
+    dx = float(patch.grid[0][1] - patch.grid[0][0])
+    with warnings.catch_warnings(record=True) as seen:
+        warnings.simplefilter("always")
+        for _ in range(2):
+            patch.roll(contact.Creepage(6e-4), distance=elements * dx)
+    assert [w.category for w in seen] == [ModelWarning] * told
+    assert not told or f"is {elements:.3g} of the 30 elements of the contact's length; with more than 3 " in str(
+        seen[0].message
+    )
+
+
+def test_one_element_is_no_long_step_however_few_there_are():
+    patch = circle(n=6)
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        patch.roll(contact.Creepage(6e-4), distance=2.0 * 1.05 * RADIUS / 6)
 
 
 def test_a_shift_back_dissipates_and_leaves_traction():

@@ -106,6 +106,8 @@ def test_cases_on_several_processes_are_those_of_one(tmp_path):
         ("  022020     L-D-C-M-Z-E", "  023020", "bilinear"),
         ("  203100     P", "  243100     P", "given pressure"),
         ("   0.0     0.5   30d3 ", "   45d   0.5   30d3 ", "direction"),
+        ("   0.0     0.5   30d3 ", "   0.0     0.5   30d3  0.0 ", "place of spin"),
+        ("   0.0     0.5   30d3 ", "   0.0     0.5   30d3  .1667 ", ""),
         ("  20 12 ", "  1900 1900 ", "memory"),
         ("   1  1\n", "   1  1\n", ""),
     ],

@@ -1,11 +1,13 @@
 """A wheel and a rail in steps: against one contact in steps, steady rolling, strips, mirror images, and what is kept."""
 
 import copy
+import warnings
 
 import numpy as np
 import pytest
 
 import contact
+from contact.errors import ModelWarning
 from contact.geometry import profile
 from contact.geometry.flexible import WheelOffset
 from contact.geometry.records import Irregularity, Pose, Velocity
@@ -59,6 +61,16 @@ def test_four_shifts_in_one_direction_are_one_and_a_copy_continues():
     pair.forget()
     once = pair.shift(POSE, Velocity(0.0, spin=4e-5), penetration=8e-5)
     assert found.force == pytest.approx(once.force, rel=2e-3)
+
+
+def test_a_long_step_of_a_pair_is_told_once():
+    pair = TransientPair(SurfacePair(WHEEL, RAIL, spacing=2e-3))
+    with warnings.catch_warnings(record=True) as seen:
+        warnings.simplefilter("always")
+        for _ in range(2):
+            pair.roll(Pose(), DRIVEN, distance=8e-3, penetration=8e-5)
+    assert [w.category for w in seen] == [ModelWarning]
+    assert "distance = 0.008 m is 4 of the 5 elements" in str(seen[0].message)
 
 
 @pytest.mark.slow

@@ -14,6 +14,8 @@ from fmu_instance import DISCARD, ERROR, WARNING, Instance, goes_on, recovers, r
 from thesis_case import THESIS
 
 import contact
+from contact.kernels import memory
+from contact.kernels.arrays import Size
 from contact_fmu.tables.wheel_rail_contact import table
 
 
@@ -55,8 +57,8 @@ def kind(request, opened):
 
 #: FMU, value, and what is said of it: for inputs and tunable parameters.
 REFUSED = [
-    (NAME, {"geometry.g[7]": math.nan}, "geometry.g[7] = nan is not finite"),
-    (NAME, {"geometry.A[41]": -1.0}, "geometry.A[41] = -1 is outside the allowed range [0, inf["),
+    (NAME, {"geometry.g[7]": math.nan}, "geometry.g[7] = nan is outside the allowed range [-100000, 100000]"),
+    (NAME, {"geometry.A[41]": -1.0}, "geometry.A[41] = -1 is outside the allowed range [0, 1e+09]"),
     (NAME, {"creepage.spin": math.inf}, "creepage.spin = inf is outside the allowed range [-1e+06, 1e+06]"),
     (NAME, {"friction.coefficient": math.nan}, "friction.coefficient = nan is outside the allowed range [0, 1e+06]"),
     (NAME, {"material.poisson_ratio": 0.7}, "material.poisson_ratio = 0.7 is outside the allowed range [0, 0.5]"),
@@ -96,7 +98,7 @@ def test_a_bad_input_is_discarded_by_name_and_the_instance_recovers(opened, name
 @pytest.mark.parametrize(
     ("name", "value", "allowed"),
     [
-        ("geometry.dy", 0.0, "]0, inf["),
+        ("geometry.dy", 0.0, "[1e-12, 100000]"),
         ("material.poisson_ratio", 0.6, "[0, 0.5]"),
         ("resolution.n_strips", 3, "[4, 1000]"),
         ("method.normal", 99, f"[1, {len(contact.methods().batched.normal)}]"),
@@ -142,6 +144,22 @@ def test_a_restored_or_serialised_state_continues_bit_by_bit(kind):
     kind.drive(fmu.initialize(), 0)
     causalities = ("input", "output", "parameter")
     goes_on(fmu, kind.open().initialize(), lambda one: (one.all(*causalities), kind.drive(one, kind.steps)))
+
+
+@pytest.mark.parametrize(("name", "starts"), [(NAME, 2), (pair_case.NAME, 1)])
+def test_a_state_has_a_second_warm_start_only_where_fields_are_computed_from_it(opened, name, starts):
+    def size(n_strips):
+        fmu = opened(name)
+        strips = {"method.normal": list(contact.methods().batched.normal).index("strip_halfspace") + 1}
+        fmu.update({**(CREEPAGES if name == NAME else pair_case.MOTION), **strips, "resolution.n_strips": n_strips})
+        fmu.initialize().step()
+        return len(fmu.fmu.serializeFMUState(fmu.fmu.getFMUState())) / 8
+
+    def start(n_strips):
+        piece = memory.memory_size(Size(n_strips, 20, 41, 1, 0))
+        return piece if name == NAME else memory.pair_memory_size(piece)
+
+    assert size(22) - size(20) == starts * (start(22) - start(20))
 
 
 def test_a_state_from_before_the_initialisation_begins_the_run_again_bit_by_bit(kind):

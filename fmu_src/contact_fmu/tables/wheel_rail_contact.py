@@ -7,8 +7,7 @@ from dataclasses import replace
 from functools import cache
 from typing import Any, Unpack
 
-from contact.inputs.options import APPROACH, LOAD, RADIUS
-from contact.inputs.separation import LARGEST_TILT
+from contact.inputs.options import APPROACH, CURVATURE, LEAST_STEP, LENGTH, LOAD, RADIUS, TILT
 from contact.kernels.records import MAX_PATCHES
 from ..rows import Attributes, output, parameter, signal
 from ..variables import Enumeration, Table, Variable
@@ -31,7 +30,7 @@ _NORMAL_PROBLEM = (
     *("material.shear_modulus", "material.poisson_ratio", "material.pressure_limit", "resolution.n_strips"),
 )
 #: Least half curvature [1/m]. Masters that start every connector at 0 give 0 (and no load).
-FLATTEST = 1e-6
+FLATTEST = CURVATURE.least
 _SAMPLES = {"geometry.kind": ("Separation",)}
 _CONFORMAL = {**_SAMPLES, "geometry.surface": ("Conformal",)}
 _CURVATURES = {"geometry.kind": ("Curvatures",)}
@@ -82,8 +81,11 @@ def table(points: int = POINTS, elliptic: bool = False) -> Table:
 
 def _parameters(points: int) -> Iterable[Variable]:
     yield parameter("geometry.kind", "How the geometry is given", enumeration=GEOMETRY_KIND, start="Separation")
-    yield parameter("geometry.y0", "Lateral position of geometry.g[1]", unit="m", start=-_HALF_WIDTH, used=_SAMPLES)
-    dy: dict[str, Any] = {"start": 2.0 * _HALF_WIDTH / (points - 1), "minimum": 0.0, "open_minimum": True}
+    length: dict[str, Any] = {"minimum": LENGTH.least, "maximum": LENGTH.most}
+    yield parameter(
+        "geometry.y0", "Lateral position of geometry.g[1]", unit="m", start=-_HALF_WIDTH, **length, used=_SAMPLES
+    )
+    dy: dict[str, Any] = {"start": 2.0 * _HALF_WIDTH / (points - 1), "minimum": LEAST_STEP, "maximum": LENGTH.most}
     yield parameter("geometry.dy", "Lateral distance between samples", unit="m", **dy, used=_SAMPLES)
     about = "Surface of the patch; Conformal uses geometry.tilt and geometry.rolling; not used when geometry.kind = Curvatures"
     surface: dict[str, Any] = {"enumeration": solver.SURFACE, "start": "Plane", "member": "case.conformal"}
@@ -97,25 +99,31 @@ def _parameters(points: int) -> Iterable[Variable]:
 
 def _inputs(points: int) -> Iterable[Variable]:
     of_samples: dict[str, Any] = {"shape": (points,), "used": _SAMPLES}
+    length: dict[str, Any] = {"minimum": LENGTH.least, "maximum": LENGTH.most}
     gap = tuple(y * y for y in (_HALF_WIDTH * (2.0 * i / (points - 1) - 1.0) for i in range(points)))
-    yield signal("geometry.g", "Undeformed gap on the contact locus", unit="m", start=gap, nominal=1e-4, **of_samples)
+    yield signal(
+        "geometry.g", "Undeformed gap on the contact locus", unit="m", start=gap, nominal=1e-4, **length, **of_samples
+    )
     about = f"Half curvature in the rolling direction; values below {FLATTEST:g} are replaced by {FLATTEST:g}"
-    yield signal("geometry.A", about, unit="1/m", start=0.5 / RADIUS.usual, minimum=0.0, **of_samples)
+    yield signal(
+        "geometry.A", about, unit="1/m", start=0.5 / RADIUS.usual, minimum=0.0, maximum=CURVATURE.most, **of_samples
+    )
     conformal = "used when geometry.surface = Conformal"
     about = f"Slope dz/dy of the contact surface relative to the contact plane, {conformal}"
-    tilt: dict[str, Any] = {"start": 0.0, "minimum": -LARGEST_TILT, "maximum": LARGEST_TILT, "nominal": 0.1}
+    tilt: dict[str, Any] = {"start": 0.0, "minimum": TILT.least, "maximum": TILT.most, "nominal": 0.1}
     yield signal("geometry.tilt", about, **tilt, shape=(points,), used=_CONFORMAL)
     about = f"Rotation about y per metre rolled, cos(contact angle)/rolling radius, {conformal}"
     yield signal("geometry.rolling", about, start=1.0 / RADIUS.usual, member="case.rolling", used=_CONFORMAL)
     for letter, axis, start in (("A", "in the rolling direction", 0.5 / RADIUS.usual), ("B", "across", 1.0)):
         about = f"Half curvature {axis}, used when geometry.kind = Curvatures; less than {FLATTEST:g} counts as {FLATTEST:g}"
-        yield signal(f"geometry.{letter}0", about, unit="1/m", start=start, minimum=0.0, used=_CURVATURES)
+        limits: dict[str, Any] = {"minimum": 0.0, "maximum": CURVATURE.most, "used": _CURVATURES}
+        yield signal(f"geometry.{letter}0", about, unit="1/m", start=start, **limits)
     for name, member, nominal in (("longitudinal", "vx", 1e-3), ("lateral", "vy", 1e-3), ("spin", "phi", 0.1)):
         about = f"{name.title()} creepage, wheel minus rail"
         yield signal(f"creepage.{name}", about, nominal=nominal, member=f"case.{member}")
     about = f"Normal force, used when load.kind = NormalForce; {solver.NO_LOAD}"
     by_load: dict[str, Any] = {"nominal": 1e5, "used": {"load.kind": ("NormalForce",)}}
-    limits: dict[str, Any] = {"minimum": solver.LEAST_LOAD, "maximum": LOAD.most}
+    limits = {"minimum": solver.LEAST_LOAD, "maximum": LOAD.most}
     yield signal("load.normal_force", about, unit="N", start=80e3, **limits, **by_load)
     about = "Rigid approach from first touch, used when load.kind = Approach; negative: apart"
     limits = {"minimum": APPROACH.least, "maximum": APPROACH.most, "used": {"load.kind": ("Approach",)}}

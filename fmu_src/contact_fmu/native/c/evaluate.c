@@ -119,7 +119,7 @@ Status prepare(Instance *instance, double *values)
     if (status != OK) return status;
     int64_t memory_size = instance->kernels->memory(values, instance->resources, instance->table.own);
     void *block = malloc((size_t)instance->kernels->size(values, instance->resources, instance->table.own) * sizeof(double) + CACHE_LINE);
-    double *memory = memory_size == instance->memory_size ? instance->memory : calloc(2 * (size_t)memory_size, sizeof(double));
+    double *memory = memory_size == instance->memory_size ? instance->memory : calloc((size_t)(instance->starts * memory_size), sizeof(double));
     if (!block || !memory) {
         free(block);
         if (memory != instance->memory) free(memory);
@@ -199,12 +199,9 @@ Status update(Instance *instance, double h, bool warm)
     }
     status = keep_finite(instance, before);
     if (status != OK) return status;
-    if (warm) {
-        memcpy(from, next, memory_bytes);
-        memcpy(next, instance->work, memory_bytes);
-    } else {
-        memset(from, 0, memory_bytes);
-    }
+    if (instance->starts > 1 && warm) memcpy(from, next, memory_bytes);
+    if (instance->starts > 1 && !warm) memset(from, 0, memory_bytes);
+    if (warm) memcpy(next, instance->work, memory_bytes);
     instance->work_is_solved = true;
     memcpy(instance->solved, values, N(values) * sizeof(double));
     instance->is.is_new = false;

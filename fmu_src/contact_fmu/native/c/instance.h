@@ -187,8 +187,8 @@ typedef struct {
     double *slopes, *slopes_at; /* the matrix of derivatives, and the values at which it was computed */
     bool has_slopes;
     double *nothing; /* zeros in place of what accumulates */
-    double *memory; /* twice memory_size numbers: warm start of the next step, then the warm start of the present outputs */
-    int64_t memory_size;
+    double *memory; /* warm start of the next step, then that of the present outputs if they are computed again on reading */
+    int64_t memory_size, starts; /* numbers of one start; how many there are, 1 or 2 */
     double *resources;       /* for each file: number of points n, then its rows of n numbers; NULL if there are none */
     uint64_t resources_hash; /* identifies the resources: a state of other resources is refused */
     double *work;        /* begins at a cache line, so that vectors are loaded at once */

@@ -98,7 +98,7 @@ static void restart(Instance *instance)
     instance->is.stop_time = INFINITY;
     instance->is.phase = INSTANTIATED;
     instance->is.is_new = true;
-    if (instance->memory) memset(instance->memory, 0, 2 * (size_t)instance->memory_size * sizeof(double));
+    if (instance->memory) memset(instance->memory, 0, (size_t)(instance->starts * instance->memory_size) * sizeof(double));
     instance->work_is_solved = false;
 }
 

@@ -16,7 +16,7 @@ typedef struct {
     uint64_t resources_hash;
     int64_t memory_size;
     Content is;
-    double numbers[]; /* values, solved, accepted; then both warm starts */
+    double numbers[]; /* values, solved, accepted; then the warm starts */
 } State;
 
 uint64_t hash(const void *content, size_t size)
@@ -32,10 +32,13 @@ static uint64_t checksum(const State *state)
     return hash(&state->size, (size_t)state->size - offsetof(State, size));
 }
 
-static size_t memory_bytes(int64_t memory_size) { return 2 * (size_t)memory_size * sizeof(double); }
+static size_t memory_bytes(const Instance *instance, int64_t memory_size)
+{
+    return (size_t)(instance->starts * memory_size) * sizeof(double);
+}
 static size_t state_bytes(const Instance *instance, int64_t memory_size)
 {
-    return sizeof(State) + kept_numbers(instance) * sizeof(double) + memory_bytes(memory_size);
+    return sizeof(State) + kept_numbers(instance) * sizeof(double) + memory_bytes(instance, memory_size);
 }
 
 static bool is_ours(const Instance *instance, const State *state)
@@ -92,7 +95,7 @@ Status get_state(Instance *instance, const char *function, void **target)
     state->is = instance->is;
     memcpy(state->numbers, instance->values, kept_numbers(instance) * sizeof(double));
     if (instance->memory)
-        memcpy(state->numbers + kept_numbers(instance), instance->memory, memory_bytes(instance->memory_size));
+        memcpy(state->numbers + kept_numbers(instance), instance->memory, memory_bytes(instance, instance->memory_size));
     return OK;
 }
 
@@ -107,7 +110,7 @@ Status set_state(Instance *instance, const char *function, const void *source)
     if (state->resources_hash != instance->resources_hash)
         return report(instance, LOG_ERROR, "%s: the state is from an FMU with other files in resources", function);
     if (state->memory_size != instance->memory_size) {
-        double *memory = malloc(memory_bytes(state->memory_size) + 1);
+        double *memory = malloc(memory_bytes(instance, state->memory_size) + 1);
         if (!memory) return report(instance, LOG_ERROR, "out of memory");
         free(instance->memory);
         instance->memory = memory;
@@ -118,7 +121,7 @@ Status set_state(Instance *instance, const char *function, const void *source)
     instance->work_is_solved = false;
     memcpy(instance->values, state->numbers, kept_numbers(instance) * sizeof(double));
     if (instance->memory)
-        memcpy(instance->memory, state->numbers + kept_numbers(instance), memory_bytes(state->memory_size));
+        memcpy(instance->memory, state->numbers + kept_numbers(instance), memory_bytes(instance, state->memory_size));
     return OK;
 }
 

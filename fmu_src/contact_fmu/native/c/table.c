@@ -148,6 +148,9 @@ bool load_table(Instance *instance, const char *folder)
         return false;
     }
     n = (size_t)N(values);
+    instance->starts = N(fields) > 0 ? 2 : 1;
+    for (size_t i = 0; i < n; i++)
+        if (t->variables[i].lazy) instance->starts = 2;
     instance->values = calloc(7 * n + N(totals) + N(accumulated) + 1 + N(derived) * N(derived_by), sizeof(double));
     if (!instance->values) {
         report(instance, LOG_ERROR, "out of memory");
