@@ -39,6 +39,7 @@ _WORDS = (
     (r"\brotated\((\S+)\) turns the wheel", r"--profile-rotation \1 0 turns the wheel"),
     (r"\brotated\((\S+)\) turns the rail", r"--profile-rotation 0 \1 turns the rail"),
     (r"\b(kind|unit|side) = None(?=[:,])", r"--profile-\1"),
+    (r"^(kind|unit|side) = ('[^']*' is none of)", r"--profile-\1 \2"),
     (r"^(\w+) = .* says how a file is read", r"--profile-\1 says how a file is read"),
     (r"\bset (unit|side|section)\b", r"set --profile-\1"),
     (r" \(throw=False [^)]*\)", ""),
