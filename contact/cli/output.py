@@ -87,7 +87,7 @@ def in_options(text: str, given: Mapping[str, Any]) -> str:
     for words, option in _WORDS:
         text = re.sub(words, option, text)
     return re.sub(
-        rf"\b({'|'.join(map(re.escape, _OPTIONS))}) = ([-+.\de]*\d)", lambda found: _typed(found, given), text
+        rf"\b({'|'.join(map(re.escape, _OPTIONS))}) = ([-+.\de]*\d|nan|-?inf)", lambda found: _typed(found, given), text
     )
 
 
