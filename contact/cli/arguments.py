@@ -12,7 +12,7 @@ from contact.cli import options as opt
 from contact.cli import output
 from contact.cli.document import in_effect
 from contact.cli.problem import Pose, Position, Touch, solve_hertzian, solve_position
-from contact.errors import ContactError, warn
+from contact.errors import ContactError, require_number, warn
 from contact.friction import Friction, as_friction
 from contact.geometry import profile
 from contact.geometry.wheelset import Pair
@@ -115,6 +115,9 @@ class _OnRails:
     radius: opt.Radius = RADIUS.usual
     gauge: opt.Gauge = GAUGE.usual
     back_to_back: opt.BackToBack = FLANGE_BACK.usual
+
+    def __post_init__(self) -> None:
+        require_number("nominal_radius", self.radius, 0.0, open_minimum=True)  # two curvatures use it for damage only
 
     @property
     def lengths(self) -> dict[str, Any]:

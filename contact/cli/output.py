@@ -39,6 +39,7 @@ _WORDS = (
     (r"\brotated\((\S+)\) turns the wheel", r"--profile-rotation \1 0 turns the wheel"),
     (r"\brotated\((\S+)\) turns the rail", r"--profile-rotation 0 \1 turns the rail"),
     (r"\b(kind|unit|side) = None(?=[:,])", r"--profile-\1"),
+    (r"^(kind|unit|side) = ('[^']*' is none of)", r"--profile-\1 \2"),
     (r"^(\w+) = .* says how a file is read", r"--profile-\1 says how a file is read"),
     (r"\bset (unit|side|section)\b", r"set --profile-\1"),
     (r" \(throw=False [^)]*\)", ""),
@@ -86,7 +87,7 @@ def in_options(text: str, given: Mapping[str, Any]) -> str:
     for words, option in _WORDS:
         text = re.sub(words, option, text)
     return re.sub(
-        rf"\b({'|'.join(map(re.escape, _OPTIONS))}) = ([-+.\de]*\d)", lambda found: _typed(found, given), text
+        rf"\b({'|'.join(map(re.escape, _OPTIONS))}) = ([-+.\de]*\d|nan|-?inf)", lambda found: _typed(found, given), text
     )
 
 

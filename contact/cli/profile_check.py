@@ -11,7 +11,7 @@ from rich.console import Console
 
 from contact.cli import arguments
 from contact.cli import options as opt
-from contact.cli.output import drawing, in_options, reported
+from contact.cli.output import BAD_INPUT, drawing, in_options, reported, stop
 from contact.errors import ContactError
 from contact.geometry import profile
 from contact.study.files import PICTURES
@@ -49,8 +49,8 @@ def check(
     ]
 
     def show(console: Console) -> None:
-        for text in (*map(str, found), *unread):
-            console.print(in_options(text, {}), markup=False, highlight=False, soft_wrap=True)
+        for one in found:
+            console.print(in_options(str(one), {}), markup=False, highlight=False, soft_wrap=True)
 
     output.deliver(
         {"files": [_plain(one) for one in found], "unread": unread},
@@ -59,7 +59,7 @@ def check(
         figure=lambda: drawing().profile_check(found[0]),
     )
     if unread:
-        raise typer.Exit(2)
+        stop("\n".join(in_options(text, {}) for text in dict.fromkeys(unread)), BAD_INPUT)
 
 
 def _files(given: list[Path]) -> Iterator[Path]:

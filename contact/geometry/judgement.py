@@ -17,7 +17,7 @@ from contact.geometry.shape import Kind, Profile
 from contact.geometry.smoothing import filtered, smoothed
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class Inspection:
     """What `check` found. Printed, it lists the findings; `contact.plot.profile_check` draws it.
 
@@ -52,6 +52,8 @@ class Inspection:
     def __str__(self) -> str:
         head = f"{self.name}: {self.kind}, {len(self.points)} points"
         return "\n".join([head, *(f"  {line}" for line in self.told)] if self.told else [f"{head}, nothing found"])
+
+    __repr__ = __str__
 
 
 def inspect_profile(given: Profile) -> Inspection:

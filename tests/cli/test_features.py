@@ -30,6 +30,9 @@ def test_stress_refuses_bad_options():
     words = ("--curvatures", 1.1, 0.8)
     assert "body = 'ground' is unknown" in call("stress", *words, "--body", "ground", code=2).stderr
     assert "criterion = 'x' is unknown" in call("stress", *words, "--criterion", "x", code=2).stderr
+    assert (
+        "--radius nan is outside the allowed range ]0, inf[" in call("stress", *words, "--radius", "nan", code=2).stderr
+    )
     assert "slope = 9 is outside" in call("stress", *words, "--slope", 9, code=2).stderr
 
 

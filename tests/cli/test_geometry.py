@@ -106,7 +106,7 @@ def test_check_names_faults_and_draws_them(tmp_path):
     assert "contact: --profile-unit, --profile-side: 'wheel.txt' does not say its unit, side" in without
     assert "  repair dropped 1 of 593 points (spikes)" in call(*words, "--profile-repair").stdout
     result = call("check", tmp_path, tmp_path / "no.whl", *words[2:], code=2)
-    assert "no.whl' is missing" in result.stdout
+    assert "no.whl' is missing" in result.stderr
     assert "spikes" in result.stdout
     pytest.importorskip("matplotlib")
     call(*words, "--out", tmp_path / "check.png")

@@ -132,9 +132,10 @@ def test_the_kind_of_a_checked_file_has_the_name_of_the_other_options(tmp_path):
     rest = ("check", path, "--profile-unit", "mm", "--profile-side", "right")
     for name in ("--profile-kind", "--kind"):
         assert "nothing found" in call(*rest, name, "wheel").stdout
-    output = call("check", path, code=2).stdout
+    output = call("check", path, code=2).stderr
     assert "--profile-kind, --profile-unit, --profile-side: 'wheel.txt' does not say its kind, unit, side" in output
-    alone = call(*rest, code=2).stdout
+    alone = call(*rest, code=2).stderr
+    assert "--profile-kind 'x' is none of 'wheel', 'rail'" in call(*rest, "--kind", "x", code=2).stderr
     assert "--profile-kind: 'wheel.txt' does not say its kind; give kind 'wheel' or 'rail'" in alone
 
 

@@ -54,14 +54,14 @@ def test_profiles_that_lie_as_they_should_are_not_called_turned():
 @pytest.mark.parametrize(("unit", "name"), [(0.0254, "inch"), (1e-2, "cm"), (1.0, "m")])
 def test_a_wrong_unit_is_named_with_the_likeliest_first(tmp_path, ending, shape, unit, name):
     path = miniprof(tmp_path / f"wrong.{ending}", shape.y, shape.z, unit)
-    said = call("check", path, code=2).stdout
+    said = call("check", path, code=2).stderr
     assert f"set --profile-unit to '{name}'" in " ".join(said.split())
 
 
 @pytest.mark.parametrize(("ending", "shape"), [("whl", WHEEL), ("ban", RAIL)])
 def test_swapped_columns_are_named(tmp_path, ending, shape):
     path = miniprof(tmp_path / f"swapped.{ending}", shape.z, shape.y)
-    said = " ".join(call("check", path, code=2).stdout.split())
+    said = " ".join(call("check", path, code=2).stderr.split())
     assert "are its columns y and z swapped, or is it turned by 90°?" in said
 
 

@@ -212,7 +212,7 @@ def test_a_check_is_printed_and_drawn(tmp_path):
     figure = plot.profile_check(found)
     marked = [line for line in figure.axes[0].lines if line.get_label() == "spikes"]
     assert marked[0].get_xdata()[0] == pytest.approx(1e3 * WHEEL.y[350], abs=1e-4)
-    assert "nothing found" in str(profile.check(WHEEL))
+    assert "nothing found" in repr(profile.check(WHEEL)) == str(profile.check(WHEEL))
 
 
 def test_pictures_after_a_repair_say_what_was_dropped(tmp_path):
