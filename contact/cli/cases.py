@@ -61,7 +61,11 @@ def read(path: Path, defaults: Mapping[str, Any]) -> list[Case]:
         if "curvatures" in case and (idle := sorted(arguments.OF_A_POSITION.intersection(case))):
             raise ContactError(f"{where}: {', '.join(idle)}: curvatures replace wheel, rail and position")
         given = {name: _value(where, name, value) for name, value in (common | dict(case)).items()}
-        found += cases_of({"name": f"case {k}", **defaults, **given})
+        try:
+            found += cases_of({"name": f"case {k}", **defaults, **given})
+        except ContactError as error:
+            error.args = (f"{where}: {error}",)
+            raise
     return found
 
 

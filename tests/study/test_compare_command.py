@@ -96,7 +96,7 @@ def test_no_contact_has_nothing_to_compare():
         ("cases.json", '[{"load": "heavy"}]', "case 1: load = 'heavy' is not a number"),
         ("cases.json", '[{"creepage": [1, 2]}]', "case 1: creepage = [1, 2] is not a list of 3 numbers"),
         ("cases.json", '[{"curvatures": [1, 1], "wheel": "s1002"}]', "case 1: wheel: curvatures replace wheel"),
-        ("cases.json", '[{"side": "top"}]', "side = 'top' is none of left, right, both"),
+        ("cases.json", '[{"side": "top"}]', "case 1: side = 'top' is none of left, right, both"),
         ("cases.csv", "load,y\n3", "more or fewer cells than names"),
     ],
 )
