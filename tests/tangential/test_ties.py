@@ -82,6 +82,12 @@ def test_patches_that_lie_ahead_of_one_another_are_tied_less_than_patches_side_b
     assert np.all(np.diff(ties) < -0.01)
 
 
+@pytest.mark.parametrize("gap", [-0.1, -0.5, -2.0])
+def test_patches_that_lie_in_each_other_are_not_tied(gap):
+    """Ellipses of `multi_hertz` overlap, and two strips may lie at one y, by whose distance slopes are divided."""
+    assert two_circles(gap)[Strip.TIE, 20] == 0.0
+
+
 def test_patches_that_touch_have_the_ties_of_one_patch():
     strips = two_circles(0.0)
     apart = strips[Strip.TIE].copy()

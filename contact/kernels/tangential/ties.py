@@ -88,7 +88,9 @@ def _set_ways(strips, first, middle, last, share):
 
 @kernel
 def _nearness(strips, first, middle, last):
-    """Return how near the patches `first` to `middle` and `middle` to `last` are: 1 where they touch."""
+    """Return how near the patches `first` to `middle` and `middle` to `last` are: 1 where they touch, 0 where they overlap."""
+    if not strips[Strip.Y, middle] > strips[Strip.Y, middle - 1]:
+        return 0.0  # ellipses of `multi_hertz` may lie in each other
     one, other = 0.0, 0.0
     for i in range(first, last):
         if i < middle:
