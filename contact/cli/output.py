@@ -61,6 +61,7 @@ def reported(command: Command) -> Command:
                 for kind in _OWN:
                     warnings.simplefilter("default", kind)  # once, though both wheels have the same load
                 warnings.showwarning = _teller(given)
+                _require_apart(kwargs)
                 command(*args, **kwargs)
         except ContactError as error:
             stop(in_options(str(error), given, typed), BAD_INPUT)
@@ -74,6 +75,20 @@ def reported(command: Command) -> Command:
             stop(str(error), MISSING)
 
     return wrapper  # type: ignore[return-value]
+
+
+def _require_apart(inputs: Mapping[str, Any]) -> None:
+    """Refuse, before the computation, to write over a file that the command reads."""
+
+    def files(value: Any) -> set[Path]:
+        parts = value if isinstance(value, list) else [value]
+        return {Path(one).resolve() for one in parts if isinstance(one, str | Path) and Path(one).is_file()}
+
+    if written := files(inputs.get("out")):
+        for both in written.intersection(
+            set().union(*(files(value) for name, value in inputs.items() if name != "out"))
+        ):
+            raise ContactError(f"{both} cannot be written: the command reads it")
 
 
 def in_options(text: str, given: Mapping[str, Any], refused: Collection[str] = ()) -> str:
