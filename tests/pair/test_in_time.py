@@ -167,7 +167,7 @@ def test_the_command_line(pair, tmp_path):
     for name, column in wanted.items():
         assert [row[name] for row in rows] == pytest.approx(column.tolist(), rel=1e-6, abs=1e-9), name
     assert "--y: " in call(*words, "--y", 1e-3, code=2).stderr
-    assert "side = 'both'" in call(*words, "--side", "both", code=2).stderr
+    assert "--side 'both'" in call(*words, "--side", "both", code=2).stderr
     file.write_text("time,pose.y\n0\n")
     assert "has 1 values for 2 names" in call("in-time", file, code=2).stderr
     assert "is missing" in call("in-time", tmp_path / "none.csv", code=2).stderr
