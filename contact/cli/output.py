@@ -119,7 +119,7 @@ def _typed(found: re.Match[str], given: Mapping[str, Any], refused: Collection[s
 def _shown(value: Any, *, inside: bool = True) -> set[str]:
     """Return how messages may show a value, or one of those in it."""
     parts = value if inside and isinstance(value, tuple | list) else ()
-    shown = f"{value:g}" if isinstance(value, int | float) else str(value)
+    shown = f"{value:g}" if isinstance(value, int | float) and not isinstance(value, bool) else str(value)
     return {shown, repr(shown), repr(value)}.union(*map(_shown, parts))
 
 
