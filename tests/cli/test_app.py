@@ -24,7 +24,6 @@ from tests.command_line import call  # noqa: E402
 @pytest.mark.parametrize(
     ("words", "message"),
     [
-        (("solve", "--friction", "nan"), "--friction nan is outside the allowed range [0, 1e+06]"),
         (
             ("solve", "--curvatures", "1", "1", "--wheel", "s1002", "--y", "0"),
             "--wheel, --y: --curvatures replaces wheel",
@@ -38,8 +37,6 @@ from tests.command_line import call  # noqa: E402
         (("solve", "--y", "1.0"), "--y 1"),
         (("solve", "--curvatures", "1", "1", "--out", "nowhere/at/all.png"), "all.png cannot be written"),
         (("curve", "--out", "nowhere/at/all.csv"), "all.csv cannot be written"),
-        (("patch", "--yaw", "3"), "--yaw 3"),
-        (("solve", "--profile-unit", "mm"), "--profile-unit 'mm' says how a file is read"),
         (("geometry", "--profile-repair"), "--profile-repair says how a file is read"),
         (("solve", "--wheel", "a.whl", "--profile-unit", "mm"), "a.whl' is missing"),
         (("geometry", "--left-wheel", "a.whl", "--profile-unit", "mm"), "a.whl' is missing"),

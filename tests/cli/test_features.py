@@ -26,17 +26,6 @@ def test_stress_gives_the_numbers_of_the_python_api(tmp_path):
     assert "largest principal" in call("stress", *words).stdout
 
 
-def test_stress_refuses_bad_options():
-    words = ("--curvatures", 1.1, 0.8)
-    assert "--body 'ground' is unknown" in call("stress", *words, "--body", "ground", code=2).stderr
-    assert "--criterion 'x' is unknown" in call("stress", *words, "--criterion", "x", code=2).stderr
-    assert (
-        "--radius nan is outside the allowed range [0.05, 2]"
-        in call("stress", *words, "--radius", "nan", code=2).stderr
-    )
-    assert "--slope 9 is outside" in call("stress", *words, "--slope", 9, code=2).stderr
-
-
 def test_solve_takes_forces_instead_of_creepages():
     words = ("--curvatures", 1.1, 0.8, "--creepage", 0, 5e-4, 0.1, "--fx", 12e3)
     answer = json.loads(call("solve", *words, "--json").stdout)["patches"][0]

@@ -88,6 +88,18 @@ def test_absurd_input_is_answered_with_a_warning_on_one_line():
     assert call("solve").stderr == ""
 
 
+@pytest.mark.parametrize("words", [("check", "{}"), ("solve", "--wheel", "{}"), ("in-time", "{}", "--load", 8e4)])
+def test_a_file_that_the_command_reads_is_not_written_over(words, tmp_path):
+    file = tmp_path / "measured.csv"
+    file.write_text("time,pose.y\n0,0\n")
+    (tmp_path / "x").mkdir()
+    assert (
+        "the command reads it"
+        in call(*(str(word).format(file) for word in words), "--out", tmp_path / "x" / ".." / file.name, code=2).stderr
+    )
+    assert file.read_text().startswith("time")
+
+
 def test_a_file_that_cannot_be_written_is_refused_before_the_computation(tmp_path, monkeypatch):
     monkeypatch.setattr("contact.cli.arguments.solve_position", None)
     assert "there is no folder" in call("solve", "--out", tmp_path / "no/a.csv", code=2).stderr

@@ -99,6 +99,12 @@ def test_a_motion_is_solved_row_by_row(pair):
         assert found["power"][k] == 20.0 * s.power_per_metre
 
 
+def test_a_motion_may_be_a_table_of_pandas(pair):
+    motion = {"time": [0.0, 1e-3], "pose.y": [1e-3, 2e-3], "load": [8e4, 8e4]}
+    frame = pytest.importorskip("pandas").DataFrame(motion, index=[7, 8])
+    assert np.array_equal(pair.run(frame)["Fy"], pair.run(motion)["Fy"])
+
+
 def test_friction_along_the_track_is_a_column(pair):
     found = pair.run(UNDER_LOAD | {"friction.coefficient": [0.1, 0.2, 0.3, 0.4]})
     np.testing.assert_array_equal(found["friction"], [0.1, 0.2, 0.3, 0.4])
