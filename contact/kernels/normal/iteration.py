@@ -315,9 +315,9 @@ def accept(problem, state):
     """Return whether the unknowns are at rest and nothing lies outside the panels. Otherwise change them by the step.
 
     With the load-weighted mean |r| of half lengths and offsets, the largest move m of an end over its width, and the
-    tolerance ε, they are at rest if |r| < ε and m < 2ε, with steps by the Jacobian, whose error is a quarter of r, if
-    |r| < .4√ε and m < .1√ε, and in both cases if the mixing leaves less than ε of the step. The last step is taken, but for a start with
-    less than `STILL` of ε: a call that is repeated has the same bits. Skewed strips with fixed ends are left at |r| <
+    tolerance ε, they are at rest if |r| < ε and m < 2ε, with steps by the Jacobian, whose error is a quarter of r, if |r| <
+    .4√ε and m < .1√ε, and in both cases if the mixing leaves less than ε of the step. The last step is taken, but for a start
+    with less than `STILL` of ε: a call that is repeated has the same bits. Skewed strips with fixed ends are left at |r| <
     `ACCEPTABLE`. The panel with the largest pressure must be at rest by itself, and before every strip.
     """
     age, error, moved, tolerance = state.number - state.begun, state.error, state.moved, problem.tolerance
