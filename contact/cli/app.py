@@ -85,7 +85,7 @@ def solve(
     options |= {**vars(methods), **(PICTURE_RESOLUTION if output.out else {})}
     options |= {"force": arguments.force(fx, fy), "layer": arguments.third_body(layer)}
     options |= {"trace": trace, "conformal": conformal}
-    arguments.require_use(context)
+    arguments.require_use(context, arguments.OF_A_POSITION - {"radius"})
     with redirect_stdout(sys.stderr if output.as_json else sys.stdout):  # a trace is not part of the JSON
         case = curvatures or place.position(side)
         touches = amount.touches(case, place.speed, options)

@@ -162,8 +162,8 @@ class PlaceOptions(Wheels):
         return Position(self.pairs(*sides), Pose(y=self.y, roll=self.roll, yaw=self.yaw), self.speed)
 
 
-#: Options that do not apply to two given curvatures. Speed and radius do apply; its damage depends on them.
-OF_A_POSITION = {entry.name for entry in fields(PlaceOptions)} - {"radius", "speed"} | {"side", "conformal"}
+#: Options that do not apply to two given curvatures. Speed does, and the radius where damage is told.
+OF_A_POSITION = {entry.name for entry in fields(PlaceOptions)} - {"speed"} | {"side", "conformal"}
 
 
 @dataclass
@@ -215,7 +215,7 @@ class Output:
             self.out = [path for path in self.out if path.suffix.lower() == ".json"]
 
 
-def require_use(context: typer.Context) -> None:
+def require_use(context: typer.Context, names: Collection[str] = OF_A_POSITION) -> None:
     """Refuse options of the running command that do not apply together with --curvatures.
 
     Raises
@@ -223,7 +223,7 @@ def require_use(context: typer.Context) -> None:
     ContactError
         If a wheel, a rail or their position is given together with --curvatures.
     """
-    if context.params["curvatures"] is not None and (idle := used(context)):
+    if context.params["curvatures"] is not None and (idle := used(context, names)):
         raise ContactError(f"{', '.join(idle)}: --curvatures replaces wheel, rail and position")
 
 

@@ -29,6 +29,7 @@ from tests.command_line import call  # noqa: E402
             "--wheel, --y: --curvatures replaces wheel",
         ),
         (("compare", "--curvatures", "1", "1", "--profile-smoothing", "2e-6"), "--profile-smoothing: --curvatures"),
+        (("stress", "--curvatures", "1", "1", "--radius", "0.5"), "--radius: --curvatures replaces wheel"),
         (("solve", "--wheel", "round"), "--wheel 'round' is no profile of the standards; they are S1002, 1/40"),
         (("solve", "--inclination", "steep"), "neither a number nor a ratio"),
         (("solve", "--rail", "some.prr", "--inclination", "0.05"), "some.prr' is missing"),
