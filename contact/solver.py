@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from contact.core import pack
-from contact.errors import ContactError, require_flag, require_integer, require_number
+from contact.errors import ContactError, ModelWarning, require_flag, require_integer, require_number, warn
 from contact.friction import Friction, as_friction
 from contact.given_force import as_numbers, wanted_force
 from contact.inputs.creepage import Creepage, as_creepage
@@ -363,7 +363,13 @@ class Solver(OwnsArrays):
 
 
 def require_trustworthy(status: Status, y: NDArray[np.float64], load: float | None, approach: float | None) -> None:
-    """Raise a ContactError if `status` is OUT_OF_RANGE or NOT_CONVERGED."""
+    """Raise a ContactError if `status` is OUT_OF_RANGE or NOT_CONVERGED. Warn of a load without contact."""
+    if load and status is Status.NO_CONTACT:
+        warn(
+            f"load = {load:g}: its approach is within the round-off of the gap over y = [{y[0]:g}, {y[-1]:g}] m, so "
+            f"{status.message}",
+            ModelWarning,
+        )
     if status in (Status.OUT_OF_RANGE, Status.NOT_CONVERGED):
         what, amount = ("load", load) if load is not None else ("approach", approach)
         raise ContactError(

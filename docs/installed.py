@@ -46,8 +46,8 @@ def wrong(page: Path) -> Iterator[str]:
     known: dict[str, Any] = {}
     for block in _BLOCK.findall(text):
         yield from _wrong_in_block(block, known, bool(in_checkout))
-    for found in _COMMAND.findall(text):
-        yield from _wrong_in_command("".join(found))
+    for line in commands_in(text):
+        yield from _wrong_in_command(line)
 
 
 def _wrong_in_block(block: str, known: dict[str, Any], in_checkout: bool) -> Iterator[str]:
@@ -114,14 +114,19 @@ def commands() -> dict[str, Any]:
 _COMMANDS: dict[str, Any] = {}
 
 
-def _wrong_in_command(text: str) -> Iterator[str]:
+def commands_in(text: str) -> Iterator[str]:
+    """Yield the commands of a page, without what follows them."""
+    for found in _COMMAND.findall(text):
+        line = re.split(r"[|>#]|&&|;", "".join(found))[0].strip()
+        if re.match(r"contact [a-z][a-z-]*( |$)", line):
+            yield line
+
+
+def _wrong_in_command(line: str) -> Iterator[str]:
     """Yield the command if it does not exist, and each of its options that does not."""
-    line = re.split(r"[|>#]|&&|;", text)[0]
     words = line.split()[1:]
-    if not words or not re.fullmatch(r"[a-z][a-z-]*", words[0]):
-        return
     if words[0] not in commands():
-        yield f"{line.strip()}: no such command"
+        yield f"{line}: no such command"
         return
     command = commands()[words[0]]
     inner = getattr(command, "commands", None)
@@ -130,7 +135,7 @@ def _wrong_in_command(text: str) -> Iterator[str]:
     options = {name for one in command.params for name in (*one.opts, *one.secondary_opts)} | {"--help", "-h"}
     for word in words[1:]:
         if re.match(r"--[a-z]", word) and not word.endswith("…") and word.split("=")[0].rstrip(".,)") not in options:
-            yield f"{word} of: {line.strip()}"
+            yield f"{word} of: {line}"
 
 
 def main() -> None:

@@ -211,3 +211,16 @@ def test_rows_of_a_yawed_flange_that_are_no_parabolas_are_told():
         warnings.simplefilter("error", ModelWarning)
         for quiet in (Pose(y=7.7e-3), Pose(y=3e-3, yaw=20e-3), Pose(y=-2e-3, yaw=-20e-3)):
             WheelRailPair(profiles).solve(quiet, load=9e4)
+
+
+@pytest.mark.parametrize("name", ["strip_halfspace", "analyn", "halfspace"])
+def test_a_load_that_no_approach_above_round_off_carries_is_told(name):
+    both = {"normal": name} | ({"tangential": name} if name == "halfspace" else {})
+    with pytest.warns(
+        ModelWarning, match=r"load = 1e-100: its approach is within the round-off of the gap over y = \["
+    ):
+        assert contact.solve(HERTZ, ROLLING, load=1e-100, **both).status is contact.Status.NO_CONTACT
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        contact.solve(HERTZ, ROLLING, load=0.0, **both)
+        contact.solve(HERTZ, ROLLING, approach=-1e-3, **both)

@@ -1,11 +1,16 @@
 """The pages speak of what an installation has: its modules, names, commands and options. `.ci/try_wheel` asks a wheel."""
 
 import importlib.util
+import shlex
+from itertools import pairwise
 from pathlib import Path
 
 import pytest
 
 pytest.importorskip("typer")
+pytest.importorskip("matplotlib")
+
+from tests.command_line import call
 
 _SPEC = importlib.util.spec_from_file_location("installed", Path(__file__).parents[1] / "docs" / "installed.py")
 installed = importlib.util.module_from_spec(_SPEC)
@@ -44,3 +49,34 @@ def test_what_is_not_there_is_named(text, message, tmp_path, monkeypatch):
     page.parent.mkdir(parents=True)
     page.write_text(text)
     assert list(installed.wrong(page)) == [message]
+
+
+#: Parts of commands that are not run here: files of the reader, runs of minutes (other tests have shorter ones), FMUs to build.
+NOT_RUN = {
+    "FILE",
+    "NAME",
+    "wheel17.whl",
+    "wheel.whl",
+    "cases.csv",
+    "cases.toml",
+    "nose.slcs",
+    "--flat",
+    "in-time",
+    "inp",
+}
+NOT_RUN |= {"run", "wear", "fmu", "demo", "vehicle", "fmu-check", "check", "table"}
+LINES = {line for page in installed.pages() for line in installed.commands_in(page.read_text(encoding="utf-8"))}
+RUN = sorted(line for line in LINES if len(words := line.split()) > 2 and not NOT_RUN & set(words) and "…" not in line)
+
+
+@pytest.mark.parametrize("line", RUN)
+def test_a_command_of_a_page_runs_without_a_warning(line, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    _, *words = shlex.split(line)
+    result = call(*words)
+    assert "warning" not in result.stderr
+    assert all((tmp_path / name).stat().st_size > 100 for option, name in pairwise(words) if option == "--out")
+
+
+def test_most_commands_of_pages_are_run():
+    assert len(RUN) >= 25

@@ -18,6 +18,7 @@ from contact.cli.problem import carried
 from contact.cli.tables import show_table
 from contact.geometry.surfaces import Deviation, RailSurface, SurfacePair, WheelSurface
 from contact.geometry.surfaces.deviation import out_of_round
+from contact.inputs.options import STATION
 from contact.pair import PairRun, solver_for
 
 on_way = partial(typer.Option, rich_help_panel="Way")
@@ -92,14 +93,15 @@ def along(
 
     contact along --flat 0.05 --from -0.05 --to 0.05
     """
+    first, last = (STATION.require(name, at) for name, at in (("from", way.begin), ("to", way.end)))
     wheel = _wheel(place).with_deviations(*change.deviations(place.radius))
     slices = Path(place.rail).suffix == ".slcs"
     rail = RailSurface.read(place.rail) if slices else place.load(place.rail, "rail")
     pair = SurfacePair(wheel, rail, **place.lengths, rail_origin=change.origin)
-    motion: dict[str, Any] = {"station": np.linspace(way.begin, way.end, way.points), "velocity.x": place.speed}
+    motion: dict[str, Any] = {"station": np.linspace(first, last, way.points), "velocity.x": place.speed}
     motion |= {"pose.y": place.y, "pose.roll": place.roll, "pose.yaw": place.yaw}
     motion |= carried(load, vertical)
-    turned = -way.begin / place.radius if way.turned is None else way.turned  # it falls when rolling forward
+    turned = -first / place.radius if way.turned is None else way.turned  # it falls when rolling forward
     found = solver_for(pair, normal, tangential).run(motion, rotation=turned, friction=surface.law())
     output.deliver(
         {**found, "patches_of": found.patches()},

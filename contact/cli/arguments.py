@@ -12,7 +12,7 @@ from contact.cli import options as opt
 from contact.cli import output
 from contact.cli.document import in_effect
 from contact.cli.problem import Pose, Position, Touch, solve_hertzian, solve_position
-from contact.errors import ContactError, require_number, warn
+from contact.errors import ContactError, warn
 from contact.friction import Friction, as_friction
 from contact.geometry import profile
 from contact.geometry.wheelset import Pair
@@ -65,7 +65,7 @@ class Reading(ProfileFile):
         """Return the profiles that have a name."""
         names: dict[profile.Kind, str | None] = {"wheel": wheel, "rail": rail}
         profile.require_file(names.values(), self.given)
-        return {kind: self._read(name, kind) for kind, name in names.items() if name}
+        return {kind: self._read(name, kind) for kind, name in names.items() if name is not None}
 
     def _read(self, name: str, kind: profile.Kind) -> profile.Profile:
         rotation = self.profile_rotation[0 if kind == "wheel" else 1]
@@ -117,7 +117,7 @@ class _OnRails:
     back_to_back: opt.BackToBack = FLANGE_BACK.usual
 
     def __post_init__(self) -> None:
-        require_number("nominal_radius", self.radius, 0.0, open_minimum=True)  # two curvatures use it for damage only
+        RADIUS.require("nominal_radius", self.radius)  # two curvatures use it for damage only
 
     @property
     def lengths(self) -> dict[str, Any]:

@@ -9,8 +9,6 @@ from contact.cli import options as opt
 from contact.cli.output import reported, require_trusted
 from contact.cli.problem import load_or_standard
 from contact.cli.report import show_columns
-from contact.errors import ContactError
-from contact.inputs.options import RADIUS
 from contact.pair.curving import in_curve
 
 CurveRadius = Annotated[float, opt.in_track("--curve-radius", help="radius of the curve in m", min=10.0)]
@@ -60,11 +58,6 @@ def curving(
     --load is that of each wheel on level track. Example:  contact curving --curve-radius 300 --speed 15 --cant 0.1
     --yaw-stiffness 10e6 --lead 1.28
     """
-    if wheels.radius > RADIUS.most:
-        raise ContactError(
-            f"--radius {wheels.radius:g} is outside the allowed range [{RADIUS.least:g}, {RADIUS.most:g}]: the wheel has it; "
-            "the curve's is --curve-radius"
-        )
     wheel, rail = wheels.profiles
     found = in_curve(
         wheel,

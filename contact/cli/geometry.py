@@ -56,8 +56,8 @@ class WheelsetOptions(arguments.Wheels):
         return {
             "wheel": wheel,
             "rail": rail,
-            "left_wheel": self.left_wheel and self.load(self.left_wheel, "wheel"),
-            "left_rail": self.left_rail and self.load(self.left_rail, "rail"),
+            "left_wheel": None if self.left_wheel is None else self.load(self.left_wheel, "wheel"),
+            "left_rail": None if self.left_rail is None else self.load(self.left_rail, "rail"),
             "left_radius": self.left_radius,
             **self.lengths,
             "roll": self.roll,

@@ -78,7 +78,7 @@ Smoothing = Annotated[
 Wavelength = Annotated[
     float | None, in_profiles(help="instead: waves of this length in m along the profile are halved, like 3e-3")
 ]
-Radius = Annotated[float, in_profiles(help="nominal rolling radius in m")]
+Radius = Annotated[float, in_profiles(help="nominal rolling radius of the wheel in m")]
 Sides = Annotated[SideOption, in_position(help="which wheel")]
 Y = Annotated[float, in_position("--y", help="lateral displacement, to the right, in m")]
 Roll = Annotated[float, in_position(help="roll in rad, positive lowers the right wheel")]

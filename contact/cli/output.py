@@ -4,14 +4,16 @@ from __future__ import annotations
 
 import errno
 import functools
+import inspect
 import re
 import warnings
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Collection, Mapping, Sequence
 from pathlib import Path
 from typing import Any, NoReturn, TypeVar
 
 import typer
 from rich.console import Console
+from typer.models import OptionInfo
 
 from contact.cli.document import document, running
 from contact.cli.extras import EXTRAS, absent_modules
@@ -20,17 +22,9 @@ from contact.errors import ContactError, ModelWarning, PlausibilityWarning
 from contact.results import Status
 from contact.study.files import PICTURES, csv_of, require_writable, write
 
-#: Names in messages of the library → the options that set them, where the names differ.
-_OPTIONS = {
-    "nominal_radius": "radius",
-    "flange_back": "back-to-back",
-    "gauge": "gauge",
-    "pose.y": "y",
-    "pose.roll": "roll",
-    "pose.yaw": "yaw",
-    "velocity.forward": "speed",
-    "speed": "speed",
-}
+#: Last parts of names in messages of the library → the options that set them, where no word of the option is in the name.
+_OPTIONS = {"approach": "penetration", "distance": "step", "forward": "speed"}
+_NAMED = re.compile(r"\b([A-Za-z][\w.]*)(?:\[\d+\])? = ('[^']*'|\([^()]*\)|True|[-+.\de]*\d|nan|-?inf)")
 #: Other words in messages of the library → those of the command line.
 _WORDS = (
     (r"\brepair=True", "--profile-repair"),
@@ -40,11 +34,9 @@ _WORDS = (
     (r"\brotated\((\S+)\) turns the rail", r"--profile-rotation 0 \1 turns the rail"),
     (r"\b(kind|unit|side) = None(?=[:,])", r"--profile-\1"),
     (r"^(kind|unit|side) = ('[^']*' is none of)", r"--profile-\1 \2"),
-    (r"^(\w+) = .* says how a file is read", r"--profile-\1 says how a file is read"),
     (r"\bset (unit|side|section)\b", r"set --profile-\1"),
     (r" \(throw=False [^)]*\)", ""),
     ("of the given separation; extend y", "of a profile"),
-    (r"^distance = (\S+ m is \S+ of the \d+ elements)", r"--step \1"),
 )
 #: Exit status of a command, besides 0.
 MISSING, BAD_INPUT, NOT_TRUSTED, INTERRUPTED = 1, 2, 3, 130
@@ -58,18 +50,21 @@ def reported(command: Command) -> Command:
     The exit status is `BAD_INPUT` for these errors and `MISSING` for a missing extra.
     """
     command = expanded(command)
-    name = command.__name__.removeprefix("list_")
+    name, flags = command.__name__.removeprefix("list_"), _flags(command)
 
     @functools.wraps(command)
     def wrapper(*args: Any, **kwargs: Any) -> None:
+        given = {option: kwargs[name] for name, (option, _) in flags.items() if kwargs.get(name) is not None}
+        typed = [option for option, usual in flags.values() if option in given and given[option] != usual]
         try:
             with warnings.catch_warnings(), running(name, kwargs):
                 for kind in _OWN:
                     warnings.simplefilter("default", kind)  # once, though both wheels have the same load
-                warnings.showwarning = _teller(kwargs)
+                warnings.showwarning = _teller(given)
+                _require_apart(kwargs)
                 command(*args, **kwargs)
         except ContactError as error:
-            stop(in_options(str(error), kwargs), BAD_INPUT)
+            stop(in_options(str(error), given, typed), BAD_INPUT)
         except OSError as error:
             if error.errno == errno.EPIPE:  # the reader of a pipe has had enough, as in `contact profiles | head`
                 raise
@@ -82,21 +77,62 @@ def reported(command: Command) -> Command:
     return wrapper  # type: ignore[return-value]
 
 
-def in_options(text: str, given: Mapping[str, Any]) -> str:
-    """Return a message with the options of the command line in place of names of Python. `given` are the command's inputs."""
+def _require_apart(inputs: Mapping[str, Any]) -> None:
+    """Refuse, before the computation, to write over a file that the command reads."""
+
+    def files(value: Any) -> set[Path]:
+        parts = value if isinstance(value, list) else [value]
+        return {Path(one).resolve() for one in parts if isinstance(one, str | Path) and Path(one).is_file()}
+
+    if written := files(inputs.get("out")):
+        for both in written.intersection(
+            set().union(*(files(value) for name, value in inputs.items() if name != "out"))
+        ):
+            raise ContactError(f"{both} cannot be written: the command reads it")
+
+
+def in_options(text: str, given: Mapping[str, Any], refused: Collection[str] = ()) -> str:
+    """Return a message with the options of the command line in place of names of Python.
+
+    `given` are the command's options with their values. If one of some options is `refused`, its value alone may tell which.
+    """
     for words, option in _WORDS:
         text = re.sub(words, option, text)
-    return re.sub(
-        rf"\b({'|'.join(map(re.escape, _OPTIONS))}) = ([-+.\de]*\d|nan|-?inf)", lambda found: _typed(found, given), text
-    )
+    return _NAMED.sub(lambda found: _typed(found, given, refused), text)
 
 
-def _typed(found: re.Match[str], given: Mapping[str, Any]) -> str:
-    """Return ``--radius 460`` for ``nominal_radius = 460`` if that is the value of the option in the running command."""
-    name = _OPTIONS[found[1]]
-    value = given.get(name.replace("-", "_"))
-    same = isinstance(value, int | float) and f"{value:g}" == found[2]
-    return f"--{name} {found[2]}" if same else found[0]
+def _typed(found: re.Match[str], given: Mapping[str, Any], refused: Collection[str]) -> str:
+    """Return ``--radius 460`` for ``nominal_radius = 460`` if that is the option's value."""
+    name, value = found[1], found[2]
+    words = {*re.split(r"[._]", name), _OPTIONS.get(name.split(".")[-1])}
+    holders = {o: set(o.lstrip("-").split("-")) for o, one in given.items() if value in _shown(one)}
+    named = sorted((o for o in holders if words & holders[o]), key=lambda o: len(holders[o] - words))
+    if not named:
+        named = [o for o in holders if o in refused]
+        if len(named) != 1:
+            return found[0]
+    option = named[0]
+    if value not in _shown(given[option], inside=False):
+        return f"{option}: {found[0]}"
+    return option if value == "True" else f"{option} {value}"
+
+
+def _shown(value: Any, *, inside: bool = True) -> set[str]:
+    """Return how messages may show a value, or one of those in it."""
+    parts = value if inside and isinstance(value, tuple | list) else ()
+    shown = f"{value:g}" if isinstance(value, int | float) else str(value)
+    return {shown, repr(shown), repr(value)}.union(*map(_shown, parts))
+
+
+def _flags(command: Callable[..., None]) -> dict[str, tuple[str, Any]]:
+    """Return the option and the default of each parameter of a command. Typer takes the first option as `default`."""
+    found = {}
+    for name, one in inspect.signature(command).parameters.items():
+        about = getattr(one.annotation, "__metadata__", [None])[0]
+        if isinstance(about, OptionInfo):
+            words = [about.default, *(about.param_decls or ()), f"--{name.replace('_', '-')}"]
+            found[name] = next(str(word) for word in words if str(word).startswith("--")), one.default
+    return found
 
 
 def _teller(given: Mapping[str, Any]) -> Callable[..., None]:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import fields
 from typing import Any
 
 from rich.console import Console
@@ -125,8 +126,7 @@ def data(touch: Touch, wheel_radius: float) -> dict[str, Any]:
     content["status"] = s.status.name
     content["creepage"] = {"longitudinal": c.longitudinal, "lateral": c.lateral, "spin": c.spin}
     content |= {"friction": s.friction, "speed": s.speed, "normal": s.normal, "tangential": s.tangential}
-    numbers = "T_gamma T_gamma_spin dissipation pearce_sherratt burstow usfd fatigue_index"
-    content["damage"] = {name: getattr(damage, name) for name in numbers.split()}
+    content["damage"] = {one.name: getattr(damage, one.name) for one in fields(damage) if one.type == "float"}
     if damage.has_fields:
         content["damage"] |= {
             "archard_depth_max": damage.archard.depth_max,

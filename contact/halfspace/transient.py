@@ -39,6 +39,7 @@ from contact.halfspace.unlike import Coupling
 from contact.inputs.creepage import Creepage, as_creepage
 from contact.inputs.material import STEEL, Material
 from contact.inputs.options import APPROACH, LOAD
+from contact.inputs.plausibility import doubt_case, doubt_value
 from contact.inputs.separation import Separation
 from contact.instance.ownership import OwnsArrays, one_thread, within
 from contact.results import Status, doubt_step
@@ -135,7 +136,7 @@ class Transient(OwnsArrays):
         self._state = self._stepper.fresh()
         self._normal: Normal | None = None
         self._pressed: Any = None
-        self.distance, self.told = 0.0, set[str]()  # for what there was a ModelWarning
+        self.distance, self.told = 0.0, set[str]()  # for what there was a warning
 
     def _kept(self) -> Any:
         return {name: self.__dict__[name] for name in _KEPT}
@@ -185,6 +186,7 @@ class Transient(OwnsArrays):
         numbers = {"longitudinal": longitudinal, "lateral": lateral, "rotation": rotation}
         moved = Creepage(*(require_number(name, value) for name, value in numbers.items()))
         within(self.take)(load, approach, gap)
+        self._usual((0.0, 0.0, 0.0), shift=max(abs(moved.longitudinal), abs(moved.lateral)))
         return self._step(moved, 0.0, None if self._local else self.friction.static, force)
 
     @one_thread
@@ -220,7 +222,8 @@ class Transient(OwnsArrays):
         """
         step = require_number("distance", distance, 0.0, self.longest_step, open_minimum=True)
         within(self.take)(load, approach, gap)
-        solution = self._step(as_creepage(creepage), step, self._coefficient(creepage), force, sliding)
+        creepage = self._usual(creepage)
+        solution = self._step(creepage, step, self._coefficient(creepage), force, sliding)
         doubt_step(self.told, step, self._stepper.dx, int(np.count_nonzero(self._state.p.any(axis=0))))
         self.distance += step
         return solution
@@ -237,7 +240,8 @@ class Transient(OwnsArrays):
     ) -> GridSolution:
         """Roll until nothing changes any more, and return the solution of steady rolling. Arguments as for `roll`."""
         within(self.take)(load, approach, gap)
-        return self._step(as_creepage(creepage), math.inf, self._coefficient(creepage), force)
+        creepage = self._usual(creepage)
+        return self._step(creepage, math.inf, self._coefficient(creepage), force)
 
     @one_thread
     def forget(self, *, keep_pressure: bool = False) -> None:
@@ -367,6 +371,23 @@ class Transient(OwnsArrays):
         if fixed:
             self._normal, self._pressed = found, self._amount
         return found
+
+    def _usual(self, creepage: Creepage | tuple[float, float, float], shift: float = 0.0) -> Creepage:
+        """Return the creepage, and warn once of what no wheel on a rail has. A gap on a grid may be of another scale."""
+        creepage = as_creepage(creepage)
+        if isinstance(self._gap, Separation):
+            vector = creepage.longitudinal, creepage.lateral, creepage.spin
+            doubt_case(
+                self._amount.get("load"),
+                self._amount.get("approach"),
+                vector,
+                self.friction.static,
+                self.speed,
+                self.told,
+            )
+            if "shift" not in self.told and doubt_value("shift", shift):
+                self.told.add("shift")
+        return creepage
 
     def _step(
         self, motion: Creepage, distance: float, mu: float | None, force: Force | None, sliding: bool = False

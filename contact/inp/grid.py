@@ -100,8 +100,9 @@ def _ellipse(case: Case, material: Material) -> tuple[float, float, float, float
     kind = case["IPOTCN"]
     load = case["FN"] if case.digits["N"] == 1 else None
     approach = case["PEN"] if load is None else None
-    if case["PEN" if load is None else "FN"] <= 0.0:
-        raise refuse(case, "input", "a Hertz grid without load")
+    given = "PEN" if load is None else "FN"
+    if case[given] <= 0.0:
+        raise refuse(case, "input", f"{given} = {case[given]:g} with a Hertz grid")
     if kind == -3:
         a, b = case["AA"], case["BB"]
         m, _, r = coefficients(*_shares(a / b))

@@ -73,6 +73,8 @@ SAMPLES = Whole(81, 5, 2001)
 SEPARATION_SAMPLES = Whole(101, 3, 100_000)
 #: Distance before and behind the axle in which surfaces are searched [m].
 REACH = Real(0.06, 0.01, 0.3)
+#: Position of the axle along the slices of a rail [m].
+STATION = Real(0.0, -1e7, 1e7)
 #: Load [N] and approach [m]: sums and squares of much larger ones overflow.
 LOAD, APPROACH = Real(0.0, 0.0, 1e15), Real(0.0, -1e15, 1e15)
 #: Half curvature [1/m] and shear modulus [Pa]: bodies that are flatter touch within the round-off of their gap, and products of
@@ -174,7 +176,7 @@ MEMBERS: dict[str, Mapping[str, Whole | Real]] = {
         "height": Whole(int(Height.LOAD), min(map(int, Height)), max(map(int, Height))),
         "amount": LOAD,
         "distance": Real(0.0, 0.0),
-        "station": Real(0.0, -1e7, 1e7),
+        "station": STATION,
         "rotation": Real(0.0, -1e8, 1e8),
     },
     "given": {name: _ANGLES.get(name, Real(0.0)) for name in GIVEN.names or ()},

@@ -38,6 +38,7 @@ USUAL = {
     "creepage.spin": Usual(20.0, "a flange has about 2; the unit is 1/m"),
     "friction": Usual(1.0, "steel on steel has 0.05 to 0.6"),
     "speed": Usual(170.0, "the fastest train ran 160 m/s; is it in km/h?"),
+    "shift": Usual(1e-3, "bodies in contact slide after some micrometres; the unit is m"),
     "A": Usual(200.0, "a wheel has 1/(2 radius), 1.1 for a radius of 0.46 m; the unit is 1/m", 0.02),
     "extent of y": Usual(1.0, "a wheel or a rail's head is less than 0.2 m wide; the unit is m"),
     "shear_modulus": Usual(1e13, "steel has 8.2e10; the unit is Pa", 1e7),

@@ -155,6 +155,7 @@ class AnyPair(OwnsArrays, ABC):
             For unknown names, columns of other lengths, times that do not increase, and as the pair's `solve`; the message then
             names the time or the station.
         """
+        motion = motion if isinstance(motion, Mapping) or not hasattr(motion, "keys") else dict(motion)  # a DataFrame
         require_kind("motion", motion, Mapping)
         require_kind("memory", memory, FrictionMemory | None)
         require_kind("damping", damping, ContactDamping | None)

@@ -65,7 +65,7 @@ def pairs_of(names: str | Iterable[str | tuple[str, str]]) -> tuple[Pair, ...]:
             continue
         parts = tuple(name.split("+")) if isinstance(name, str) else tuple(name)
         if len(parts) != 2:
-            raise ContactError(f"methods: {name!r} is not a normal and a tangential method, like 'analyn+fastrip'")
+            raise ContactError(f"method = {name!r} is not a normal and a tangential method, like 'analyn+fastrip'")
         pair = Pair(*(lookup(kind, part).name for kind, part in zip(("normal", "tangential"), parts, strict=True)))
         if not serves(pair):
             raise ContactError(f"methods: {pair} cannot be combined; normal halfspace needs tangential halfspace")

@@ -26,16 +26,6 @@ def test_stress_gives_the_numbers_of_the_python_api(tmp_path):
     assert "largest principal" in call("stress", *words).stdout
 
 
-def test_stress_refuses_bad_options():
-    words = ("--curvatures", 1.1, 0.8)
-    assert "body = 'ground' is unknown" in call("stress", *words, "--body", "ground", code=2).stderr
-    assert "criterion = 'x' is unknown" in call("stress", *words, "--criterion", "x", code=2).stderr
-    assert (
-        "--radius nan is outside the allowed range ]0, inf[" in call("stress", *words, "--radius", "nan", code=2).stderr
-    )
-    assert "slope = 9 is outside" in call("stress", *words, "--slope", 9, code=2).stderr
-
-
 def test_solve_takes_forces_instead_of_creepages():
     words = ("--curvatures", 1.1, 0.8, "--creepage", 0, 5e-4, 0.1, "--fx", 12e3)
     answer = json.loads(call("solve", *words, "--json").stdout)["patches"][0]
@@ -46,7 +36,7 @@ def test_solve_takes_forces_instead_of_creepages():
     assert answer["Fx"] == pytest.approx(12e3, abs=1.0)
     both = json.loads(call("solve", *words, "--fy", 30e3, "--json", code=3).stdout)["patches"][0]
     assert both["status"] == "UNREACHABLE"
-    assert "force = nan" in call("solve", *words[:-1], "nan", code=2).stderr
+    assert "--fx nan" in call("solve", *words[:-1], "nan", code=2).stderr
 
 
 def test_transient_gives_the_numbers_of_the_python_api(tmp_path):
@@ -59,7 +49,7 @@ def test_transient_gives_the_numbers_of_the_python_api(tmp_path):
     forces += [patch.roll(contact.Creepage(1e-3, 0.0, 0.1), distance=1e-3).Fx for _ in range(4)]
     assert [float(row["Fx"]) for row in rows] == forces
     assert picture.stat().st_size > 10_000
-    assert "step = 0 is outside" in call("transient", *words, "--step", 0, code=2).stderr
+    assert "--step 0 is outside" in call("transient", *words, "--step", 0, code=2).stderr
     assert "warning: --step 0.004 m is 4 of the 12 elements" in call("transient", *words, "--step", 4e-3).stderr
     assert "needs 1e+07 steps" in call("transient", *words, "--distance", 1e4, code=2).stderr
 

@@ -75,14 +75,29 @@ def test_units_of_headings_are_not_swallowed_by_markup():
 def test_absurd_input_is_answered_with_a_warning_on_one_line():
     for words, wanted in (
         (("--y", -0.02), "contact: warning: --y -0.02: a flange touches at about 0.007 m; the unit is m"),
-        (("--load", 80, "--side", "both"), "contact: warning: load = 80: a wheel carries 20 to 150 kN; the unit is N"),
-        (("--friction", 30), "contact: warning: friction = 30: steel on steel has 0.05 to 0.6"),
-        (("--creepage", -0.128, 0, 0), "contact: warning: creepage.longitudinal = -0.128: a rolling wheel has less"),
+        (("--load", 80, "--side", "both"), "contact: warning: --load 80: a wheel carries 20 to 150 kN; the unit is N"),
+        (("--friction", 30), "contact: warning: --friction 30: steel on steel has 0.05 to 0.6"),
+        (
+            ("--creepage", -0.128, 0, 0),
+            "contact: warning: --creepage: creepage.longitudinal = -0.128: a rolling wheel has less",
+        ),
     ):
         result = call("solve", *words)
         assert wanted in result.stderr
         assert result.stderr.count("\n") == 1, "and nothing else"
     assert call("solve").stderr == ""
+
+
+@pytest.mark.parametrize("words", [("check", "{}"), ("solve", "--wheel", "{}"), ("in-time", "{}", "--load", 8e4)])
+def test_a_file_that_the_command_reads_is_not_written_over(words, tmp_path):
+    file = tmp_path / "measured.csv"
+    file.write_text("time,pose.y\n0,0\n")
+    (tmp_path / "x").mkdir()
+    assert (
+        "the command reads it"
+        in call(*(str(word).format(file) for word in words), "--out", tmp_path / "x" / ".." / file.name, code=2).stderr
+    )
+    assert file.read_text().startswith("time")
 
 
 def test_a_file_that_cannot_be_written_is_refused_before_the_computation(tmp_path, monkeypatch):
@@ -100,7 +115,7 @@ def test_messages_name_the_option_that_was_typed():
     assert "--gauge 1.668 and --back-to-back 1.36 hardly belong to one track" in said
     assert "--back-to-back 0.01 is outside" in call("geometry", "--back-to-back", 0.01, code=2).stderr
     said = call("solve", "--speed", 300, "--yaw", 0.06, "--load", 500).stderr.splitlines()
-    assert sorted(line.split(":")[2] for line in said) == [" --speed 300", " --yaw 0.06", " load = 500"]
+    assert sorted(line.split(":")[2] for line in said) == [" --load 500", " --speed 300", " --yaw 0.06"]
 
 
 def test_a_decimal_comma_is_named():

@@ -116,6 +116,16 @@ def test_every_entry_doubts_the_same_arguments(of, options, said):
         assert not doubts(entry, SEPARATION, (1e-3, 0.0, 0.0), load=80e3)
 
 
+def test_rolling_in_steps_doubts_them_too():
+    patch = contact.Transient(SEPARATION, load=80.0, speed=300.0, spacing=1e-3)
+    for step, said in (
+        (lambda: patch.shift(5e-3), ["load", "speed", "shift"]),
+        (lambda: patch.roll((2.0, 0.0, 0.0), distance=1e-4), ["creepage.longitudinal"]),
+        (lambda: patch.roll_on((2.0, 0.0, 0.0)), []),
+    ):
+        assert [str(one.message).partition(" = ")[0] for one in doubts(step)] == said
+
+
 def test_a_solver_doubts_every_call_and_each_argument_once():
     solve, rolling = contact.Solver().solve, (1e-3, 0.0, 0.0)
     each = [

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from contact import ContactError
+from contact.errors import ProfileWarning
 from contact.geometry.surfaces import RailSurface, WheelSurface
 
 Y = np.linspace(-30.0, 30.0, 61)
@@ -97,6 +98,18 @@ def test_bad_files_are_refused_by_line(crossing, change, message):
     assert change[0] in text
     crossing.write_text(text.replace(*change))
     with pytest.raises(ContactError, match=message):
+        RailSurface.read(crossing)
+
+
+def test_more_or_fewer_slices_than_the_file_says_are_told(crossing):
+    text = crossing.read_text().partition(" 1            % kink")[0].replace(" 3  1  1 ", " 0  0  0 ")
+    crossing.write_text(text.replace(" 3            % slices", " 2            % slices"))
+    with pytest.warns(
+        ProfileWarning, match=r"line 8: .*slice_2.txt'\" comes after the 2 slices of the file and is not read"
+    ):
+        assert len(RailSurface.read(crossing).sheet.u) == 2
+    crossing.write_text(text.replace(" 3            % slices", " 4            % slices"))
+    with pytest.raises(ContactError, match="the file ends where it needs slice 3 of 4"):
         RailSurface.read(crossing)
 
 

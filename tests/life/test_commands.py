@@ -72,7 +72,7 @@ def test_the_files_do_not_depend_on_the_number_of_threads(call, tmp_path, monkey
     for threads in ("1", "2"):
         assert call(threads, "--threads", threads).exit_code == 0
     assert (tmp_path / "1" / "result.nc").read_bytes() == (tmp_path / "2" / "result.nc").read_bytes()
-    assert "threads = 3 is outside the allowed range [1, 2]" in call("3", "--threads", "3").output
+    assert "--threads 3 is outside the allowed range [1, 2]" in call("3", "--threads", "3").output
 
 
 @pytest.mark.usefixtures("drawn_once")

@@ -77,7 +77,3 @@ def test_the_command_has_the_numbers_of_the_python_api(leading):
     assert [row["Y"] for row in found["wheels"]] == pytest.approx([leading.outer.Y, leading.inner.Y], rel=1e-6)
     assert found["units"]["spin"] == "rad/s"
     assert "mm to the outside" in call(*words).stdout
-
-
-def test_the_radius_of_a_curve_given_as_that_of_the_wheel_is_told_its_option():
-    assert "the curve's is --curve-radius" in " ".join(call("curving", "--radius", 300, code=2).output.split())

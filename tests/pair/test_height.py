@@ -188,8 +188,22 @@ def test_a_lobe_that_the_search_opens_too_wide_comes_to_rest_with_ends_that_move
     np.testing.assert_allclose(pair.solve(pose, VELOCITY).force, cold.force, rtol=0.0, atol=1e-4 * 0.3 * 80e3)
 
 
+@pytest.mark.parametrize(
+    ("y", "yaw"), [(6.9e-3, -20e-3), (7.03e-3, 10e-3), (5.8e-3, 10e-3), (-2.44e-3, 5e-3)], ids="{:g}".format
+)
+def test_steps_too_small_to_disturb_a_start_do_not_leave_it_behind(y, yaw):
+    """A start that was the answer while its residuals were below the tolerance lagged by 1.2 to 2.1e-4 of mu N."""
+    pair = WheelRailPair(Pair(WHEEL, RAIL))
+    z = pair.solve(Pose(y=y, yaw=yaw), VELOCITY, load=80e3).z
+    for k in range(40):
+        warm = pair.solve(Pose(y=y + 1e-8 * k, yaw=yaw, z=z), VELOCITY)
+    pair.forget()
+    cold = pair.solve(Pose(y=y + 39e-8, yaw=yaw, z=z), VELOCITY)
+    np.testing.assert_allclose(warm.force, cold.force, rtol=0.0, atol=1e-4 * 0.3 * sum(c.N for c in cold.contacts))
+
+
 def test_a_call_that_is_repeated_has_the_same_bits():
-    """Of 1000 poses from -4 to 7 mm this fails for 4."""
+    """Of 400 poses from -4 to 7 mm this fails for 17, 16 of them beyond 5.7 mm."""
     pair = WheelRailPair(Pair(WHEEL, RAIL))
     for y in np.linspace(-4e-3, 4e-3, 50):
         pose = Pose(y=y, yaw=2e-3, z=pair.solve(Pose(y=y, yaw=2e-3), VELOCITY, load=80e3).z)

@@ -99,6 +99,12 @@ def test_a_motion_is_solved_row_by_row(pair):
         assert found["power"][k] == 20.0 * s.power_per_metre
 
 
+def test_a_motion_may_be_a_table_of_pandas(pair):
+    motion = {"time": [0.0, 1e-3], "pose.y": [1e-3, 2e-3], "load": [8e4, 8e4]}
+    frame = pytest.importorskip("pandas").DataFrame(motion, index=[7, 8])
+    assert np.array_equal(pair.run(frame)["Fy"], pair.run(motion)["Fy"])
+
+
 def test_friction_along_the_track_is_a_column(pair):
     found = pair.run(UNDER_LOAD | {"friction.coefficient": [0.1, 0.2, 0.3, 0.4]})
     np.testing.assert_array_equal(found["friction"], [0.1, 0.2, 0.3, 0.4])
@@ -167,7 +173,7 @@ def test_the_command_line(pair, tmp_path):
     for name, column in wanted.items():
         assert [row[name] for row in rows] == pytest.approx(column.tolist(), rel=1e-6, abs=1e-9), name
     assert "--y: " in call(*words, "--y", 1e-3, code=2).stderr
-    assert "side = 'both'" in call(*words, "--side", "both", code=2).stderr
+    assert "--side 'both'" in call(*words, "--side", "both", code=2).stderr
     file.write_text("time,pose.y\n0\n")
     assert "has 1 values for 2 names" in call("in-time", file, code=2).stderr
     assert "is missing" in call("in-time", tmp_path / "none.csv", code=2).stderr

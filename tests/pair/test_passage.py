@@ -104,7 +104,7 @@ def test_the_command_reads_slices(tmp_path):
 @pytest.mark.parametrize(
     ("words", "message"),
     [
-        (("along", "--flat-depth", 1e-3), "flat_depth = 0.001 needs --flat"),
+        (("along", "--flat-depth", 1e-3), "--flat-depth 0.001 needs --flat"),
         (("along", "--rail", "absent.slcs", "--origin", 0.75, 0.0), "is missing"),
         (("along", "--polygon", 0, 1e-4), "order = 0"),
     ],

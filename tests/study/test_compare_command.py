@@ -111,7 +111,7 @@ def test_files_without_valid_cases_are_refused(tmp_path, file, text, message):
         (("missing.toml",), "missing.toml cannot be read: No such file"),
         (("--out", "table.xls"), "table.xls cannot be written: a file ends in one of .html"),
         (("--method", "magic+fastrip"), "normal = 'magic'"),
-        (("--reference-elements", "1"), "reference_elements = 1"),
+        (("--reference-elements", "1"), "--reference-elements 1"),
     ],
 )
 def test_bad_options_end_with_code_2(words, message):

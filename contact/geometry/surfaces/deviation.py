@@ -104,7 +104,7 @@ class Flat:
 
     def __post_init__(self) -> None:
         require_number("length", self.length, 1e-3, 0.3)
-        require_number("radius", self.radius, 0.05, 2.0)
+        RADIUS.require("radius", self.radius)
         require_number("angle", self.angle)
         if self.shape not in _DEPTHS:
             raise ContactError(f"shape = {self.shape!r} is none of {', '.join(map(repr, _DEPTHS))}")
@@ -112,7 +112,7 @@ class Flat:
             object.__setattr__(self, "depth", _DEPTHS[self.shape] * self.length**2 / self.radius)
         elif self.shape == "chord":
             raise ContactError(f"depth = {self.depth!r}: the depth of a chord follows from its length")
-        require_number("depth", self.depth, 0.0, 0.02)
+        require_number("depth", self.depth, 0.0, 0.02, open_minimum=True)
 
     def at(self, u: Array) -> tuple[Array, Array]:
         """Return value [m] and slope [m/rad] at the angles `u`."""

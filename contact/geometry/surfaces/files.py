@@ -160,13 +160,19 @@ def _parsed(path: Path) -> _Slices:
     method = _count(lines, "method along the track", path, 1, 2)[0]
     positions, names = np.empty(n), []
     for i in range(n):
-        number, text = next(lines, (0, ""))
+        number, text = _next(lines, f"slice {i} of {n}", path)
         match = re.match(r"\s*(\S+)\s+(?:'([^']+)'|(\S+))", text)
         if match is None:
             raise ContactError(f"path = {str(path)!r}, line {number}: position and 'file name' of slice {i} are needed")
         positions[i] = scale * (offset + _number(match[1], number, path))
         names.append(match[2] or match[3])
     if features < 2:
+        for number, text in lines:
+            warn(
+                f"{path.name}, line {number}: {text[:40]!r} comes after the {n} slices of the file and is not read",
+                ProfileWarning,
+            )
+            break
         return _Slices(positions, names, None, [], method == 1)
     rest = _stream(lines, path)
     corners = [int(value) for value in _take(rest, kinks, "kinks", path)]
@@ -189,9 +195,16 @@ def _statements(path: Path) -> Iterator[tuple[int, str]]:
             yield number, text
 
 
+def _next(lines: Iterator[tuple[int, str]], what: str, path: Path) -> tuple[int, str]:
+    """Return number and text of the next line."""
+    for line in lines:
+        return line
+    raise ContactError(f"path = {str(path)!r}: the file ends where it needs {what}")
+
+
 def _numbers(lines: Iterator[tuple[int, str]], count: int, what: str, path: Path) -> list[float]:
     """Return the first `count` numbers of the next line."""
-    number, text = next(lines, (0, ""))
+    number, text = _next(lines, what, path)
     words = text.replace(",", " ").split()
     if len(words) < count:
         raise ContactError(f"path = {str(path)!r}, line {number}: {what} needed, {text[:40]!r} found")

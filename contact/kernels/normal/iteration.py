@@ -43,6 +43,9 @@ TOLERANCE = 1e-4
 #: Limits at which the iteration stops: what mixing leaves of the step, over the tolerance, which tells the error of the force,
 #: and, with steps by the Jacobian of an ellipse, the residuals, over its square root.
 LEFT, CLOSE = 1.0, 0.4
+#: Share of the tolerance below which a warm start is the answer as it is. Up to all of it small steps of a way would leave
+#: the start behind.
+STILL = 0.3
 #: Load-weighted mean change of ln a that counts as converged at the limit of iterations.
 ACCEPTABLE = 1e-3
 #: Iteration up to which a strip whose ln a steps by ZIGZAG is not at rest, however little of the load that changes.
@@ -342,9 +345,9 @@ def accept(problem, state):
 
     With the load-weighted mean |r| of half lengths and offsets, the largest move m of an end over its width, and the
     tolerance ε, they are at rest if |r| < ε and m < 2ε, with steps by the Jacobian, whose error is a quarter of r, if |r| and
-    m < .4√ε, and in both cases if the mixing leaves less than ε of the step. The last step is taken, but for a start that is at
-    rest: a call that is repeated has the same bits. Skewed strips with fixed ends are left at |r| < `ACCEPTABLE`. The panel
-    with the largest pressure must be at rest by itself, and before every strip.
+    m < .4√ε, and in both cases if the mixing leaves less than ε of the step. The last step is taken, but for a start with less
+    than `STILL` of ε: a call that is repeated has the same bits. Skewed strips with fixed ends are left at |r| < `ACCEPTABLE`.
+    The panel with the largest pressure must be at rest by itself, and before every strip.
     """
     age, error, moved, tolerance = state.number - state.begun, state.error, state.moved, problem.tolerance
     close = CLOSE * math.sqrt(tolerance)
@@ -363,7 +366,8 @@ def accept(problem, state):
             return False
         elif not _search(problem, state, GHOST):
             state.converged = 1 if exact or settled else 0
-            state.last = 1 if state.converged == 0 or (exact and age == 0) else 0
+            still = exact and age == 0 and max(error / state.load, 0.5 * moved) < STILL * tolerance
+            state.last = 1 if state.converged == 0 or still else 0
             return True
     elif _seeks(problem, state):
         _search(problem, state, GHOST if state.searched != 0 else EARLY_GHOST)

@@ -5,8 +5,8 @@ import math
 from contact.core import kernel
 from contact.kernels.normal.between_panels import IN_LINE, add_others, assemble_others
 from contact.kernels.normal.elimination import eliminate
-from contact.kernels.normal.influence import N_X, at_centre, column, in_row, logarithm, off_line, row_at
-from contact.kernels.normal.many_strips import displacement, fill_ln_X
+from contact.kernels.normal.influence import at_centre, column, off_line
+from contact.kernels.normal.many_strips import displacement, fill_ln_X, go_off_line
 from contact.kernels.rows import Pair, Vector
 
 #: Overlap of an idle strip, over the approach, from which on it is loaded again in the first rounds and in later ones. Narrow
@@ -25,24 +25,22 @@ def _fill_off_line(first, n, half, workspace, unit):
     centre, plane = workspace.tables.centre, workspace.tables.plane
     tabulated = workspace.rule.columns.shape[1] == n
     loci, ln_half = vectors[Vector.XC, first : first + n], math.log(half)
-    factors = vectors[Vector.OF_MIDDLE, first : first + n]
+    factors, forces = vectors[Vector.OF_MIDDLE, first : first + n], vectors[Vector.Q1, :n]
+    pairs = vectors[Vector.PAIRS : Vector.PAIRS + len(Pair)]
     for k in range(n):
         a, row = vectors[Vector.A, first + k], matrix[first + k, first : first + n]
         ln_a, scale, inverse, locus = vectors[Vector.LN_LENGTH, first + k] - ln_half, a * unit, 1.0 / a, loci[k]
         for i in range(n):
             X = abs(loci[i] - locus) * inverse
-            left, right = cosine_logs[i, k] - ln_a, cosine_logs[i, k + 1] - ln_a
-            if not tabulated:
-                low = at_centre(centre, left)
-                row[i] = factors[i] * scale * abs(at_centre(centre, right) + (low if i == k else -low))
-            if X > IN_LINE:
-                place, share, ln_X = row_at(X, logarithm(X))
-                low, high = in_row(plane, place, share, left - ln_X), in_row(plane, place, share, right - ln_X)
-                if place < N_X:  # the table gives what differs from the centre line, as in `off_line`
-                    low, high = low - in_row(plane, 0, 0.0, left), high - in_row(plane, 0, 0.0, right)
-                    row[i] += factors[i] * scale * (high - low if right > left else low - high)
-                else:
-                    row[i] = factors[i] * scale * abs(high - low)
+            pairs[Pair.X, i] = X if X > IN_LINE else 0.0
+            pairs[Pair.LOW, i], pairs[Pair.HIGH, i] = cosine_logs[i, k] - ln_a, cosine_logs[i, k + 1] - ln_a
+            forces[i] = factors[i] * scale
+        if not tabulated:
+            for i in range(n):
+                low, high = at_centre(centre, pairs[Pair.LOW, i]), at_centre(centre, pairs[Pair.HIGH, i])
+                row[i] = forces[i] * abs(high + (low if i == k else -low))
+        fill_ln_X(n, pairs)
+        go_off_line(plane, forces, pairs, row)
 
 
 @kernel
