@@ -1,7 +1,7 @@
 """Displacement of each panel of strips by the other panels: found at a few probes, interpolated between them.
 
-Panels do not overlap, so the displacement by other panels is smooth across a panel. It is calculated at `PROBES` strips
-that lie nearly at Chebyshev's nodes. The polynomial through them serves the other strips.
+The displacement by panels that are not near is smooth across a panel. It is calculated at `PROBES` strips that lie nearly at
+Chebyshev's nodes. The polynomial through them serves the other strips. If a panel is near, every strip is a probe.
 """
 
 import math
@@ -58,10 +58,10 @@ def _spread(u, spread, out):
 @entry
 def is_shared(end: int, n_panels: int, panels: Numbers) -> bool:
     """Return whether two panels meet in an end: number 2p is the lower one of panel p, 2p + 1 the upper one."""
+    shared = False
     for p in range(n_panels):
-        if panels[2 * p + 1 - end % 2] == panels[end]:
-            return True
-    return False
+        shared = shared or panels[2 * p + 1 - end % 2] == panels[end]
+    return shared
 
 
 @kernel

@@ -148,9 +148,10 @@ def end_move(vectors, n, first, step, cosines, shared, frozen, calm, skewed):
     """Return the outward move of one end of a panel over its half width.
 
     `first` is the strip at this end, `step` the step to its neighbour. The share of the first pressure in the rule replaces
-    that pressure in Vector.END. An end where two panels meet moves only to leave idle strips, then they part there. A `frozen` end keeps its place, and idle strips with it, unless the half lengths are `calm` and
-    the pressure rises towards it, as at the corner of a punch or in the last strip alone. It goes as far as the rule tells only
-    to the corner of a punch in patches that are not `skewed`: elsewhere that is a direction, and the gap tells what lies there.
+    that pressure in Vector.END. An end that is `shared` with another panel only leaves idle strips, and the panels part there.
+    A `frozen` end keeps its place, and idle strips with it, unless the half lengths are `calm` and the pressure rises towards
+    it, as at the corner of a punch or in the last strip alone. It goes as far as the rule tells only to the corner of a punch
+    in patches that are not `skewed`: elsewhere that is a direction, and the gap tells what lies there.
     """
     p0, p1, p2 = vectors[Vector.END, first], vectors[Vector.P, first + step], vectors[Vector.P, first + 2 * step]
     idle = idle_strips(vectors, n, first, step)

@@ -118,9 +118,10 @@ def place_middles(vectors, n, n_panels, delta):
 def half_lengths(panels: Numbers, vectors: Matrix, n: int, n_panels: int, delta: float) -> None:
     """Fill half lengths a and their logarithms, LN_LENGTH, from ln a, at the approach `delta` above first touch [m].
 
-    Strips at the ends follow the square root of the edge, but where two panels meet their neighbours. No strip may collapse beside its neighbours. None may be longer
-    than the virtual penetration, A a² = delta - g: the pressure displaces its ends outwards. Without this bound the length
-    of a strip with hardly any pressure, near the end of a skewed patch, can grow until it carries the load.
+    Strips at the ends follow the square root of the edge, but have their neighbours' lengths where two panels meet. No strip
+    may collapse beside its neighbours. None may be longer than the virtual penetration, A a² = delta - g: the pressure
+    displaces its ends outwards. Without this bound the length of a strip with hardly any pressure, near the end of a skewed
+    patch, can grow until it carries the load.
     """
     for p in range(n_panels):
         first = p * n

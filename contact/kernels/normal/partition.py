@@ -1,4 +1,6 @@
-"""Partition of the contact into panels: idle parts cut off, panels parted, joined and removed."""
+"""Partition of the contact into panels: idle parts cut off, panels parted where strips are idle or the gap has a ridge, joined
+and removed.
+"""
 
 import math
 
@@ -18,8 +20,9 @@ _GAP, _BESIDE = 0.1, 3
 #: The same width over the half length of the shorter strip beside it. A thin lobe, all of whose strips touch, has idle ones too
 #: before it comes to rest.
 _APART = 0.1
-#: Height of a ridge of the gap over the lobes at its sides, over the approach, from which on a panel is parted there.
-RIDGE = 1e-2
+#: Height of a ridge of the gap over the lobes at its sides, over the approach, from which on a panel is parted there. Below it
+#: one panel does as well.
+_RIDGE = 2e-2
 
 
 @kernel
@@ -203,7 +206,7 @@ def divide(sep, slopes, delta, n, n_panels, panels, cosines, vectors):
     So lobes that a neck joins have the strips of lobes that a narrow gap parts, and nothing jumps where it closes. A panel with
     more ridges than there are panels left is rough rather than lobed, and stays whole. Return also whether anything changed.
     """
-    least, changed = RIDGE * delta, False
+    least, changed = _RIDGE * delta, False
     p = 0
     while p < n_panels:
         q = 0
