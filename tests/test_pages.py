@@ -1,7 +1,9 @@
 """The pages speak of what an installation has: its modules, names, commands and options. `.ci/try_wheel` asks a wheel."""
 
 import importlib.util
+import re
 import shlex
+import warnings
 from itertools import pairwise
 from pathlib import Path
 
@@ -80,3 +82,17 @@ def test_a_command_of_a_page_runs_without_a_warning(line, tmp_path, monkeypatch)
 
 def test_most_commands_of_pages_are_run():
     assert len(RUN) >= 25
+
+
+#: Pages whose code needs no file of the reader. That of pages with cells runs when the site is built.
+@pytest.mark.parametrize(
+    "page", ["README.md", "docs/use/getting_started.md", "docs/use/lookup.md", "docs/check/derivatives.md"]
+)
+def test_the_code_of_a_page_runs_without_a_warning(page, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    names = {}
+    for block in re.findall(r"^```python\n(.*?)^```", (installed.ROOT / page).read_text(encoding="utf-8"), re.M | re.S):
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")
+            exec(compile(block, page, "exec"), names)
+    assert names

@@ -20,6 +20,7 @@ from contact.geometry.surfaces import Deviation, RailSurface, SurfacePair, Wheel
 from contact.geometry.surfaces.deviation import out_of_round
 from contact.inputs.options import STATION
 from contact.pair import PairRun, solver_for
+from contact.pair.motion import MOST_ROWS
 
 on_way = partial(typer.Option, rich_help_panel="Way")
 _HEADINGS = (
@@ -28,7 +29,7 @@ _HEADINGS = (
 )
 Begin = Annotated[float, on_way("--from", help="first station of the axle in m")]
 End = Annotated[float, on_way("--to", help="last station in m")]
-Count = Annotated[int, on_way("--points", help="number of stations", min=1)]
+Count = Annotated[int, on_way("--points", help="number of stations", min=1, max=MOST_ROWS)]
 Turned = Annotated[
     float | None,
     on_way(

@@ -25,16 +25,19 @@ _OF_COMMAND = dict.fromkeys(("rail", "roller", "in_time", "along"), _ROTATING) |
 
 
 _RUNNING: ContextVar[tuple[str, dict[str, Any]]] = ContextVar("_RUNNING", default=("", {}))
+#: The options of the running command with their values, for its messages.
+GIVEN: ContextVar[Mapping[str, Any]] = ContextVar("GIVEN")
 
 
 @contextmanager
-def running(command: str, inputs: Mapping[str, Any]) -> Iterator[None]:
-    """Context manager in which `document` has the name and the inputs of a command."""
-    token = _RUNNING.set((command, dict(inputs)))
+def running(command: str, inputs: Mapping[str, Any], given: Mapping[str, Any]) -> Iterator[None]:
+    """Context manager in which `document` has the name and the inputs of a command, and `GIVEN` its options."""
+    tokens = _RUNNING.set((command, dict(inputs))), GIVEN.set(given)
     try:
         yield
     finally:
-        _RUNNING.reset(token)
+        _RUNNING.reset(tokens[0])
+        GIVEN.reset(tokens[1])
 
 
 def in_effect(**values: Any) -> None:

@@ -40,7 +40,8 @@ Chosen = Annotated[
     list[str] | None,
     in_axes("--table", help=f"table to make; may be repeated: {', '.join(lookup.TABLES)}", show_default=False),
 ]
-Checked = Annotated[int, typer.Option("--check", min=1, help="random points on which the error is measured")]
+_MOST = 1_000_000  # breakpoints of an axis, and random points
+Checked = Annotated[int, typer.Option("--check", min=1, max=_MOST, help="random points on which the error is measured")]
 Threads = Annotated[int | None, typer.Option(min=1, help="threads", show_default="all cores")]
 Tables = Annotated[Path, opt.in_output("--out", help="write .mat, .npz or .csv")]
 
@@ -68,16 +69,19 @@ def lut(
     lookup.require_writable(out)
     if side is opt.SideOption.both:
         raise ContactError("--side both: a table is that of one wheel; allowed: left, right")
-    axes = dict(map(_breakpoints, axis or ["y=-6e-3:6e-3:49", "yaw=-4e-3:4e-3:9"]))
+    given = list(map(_breakpoints, axis or ["y=-6e-3:6e-3:49", "yaw=-4e-3:4e-3:9"]))
+    if len(axes := dict(given)) < len(given):
+        raise ContactError(f"--axis {', --axis '.join(name for name, _ in given)}: a name stands twice")
     pair = WheelRailPair(wheels.pairs(side.value)[0], **vars(methods))
     options: dict[str, Any] = {"friction": surface.law(), "threads": threads}
     options |= {} if "load" in axes else {"load": load_or_standard(load)}
     options |= {} if "speed" in axes else {"speed": speed}
     names = tuple(table or lookup.DEFAULT_TABLES)
-    for name, points in axes.items():
+    others = {name: np.asarray(options[name]) for name in ("load", "speed") if name in options}
+    for name, points in (axes | others).items():
         if name in _USUAL:
-            doubt_values(_USUAL[name], points, f"--axis {name}")
-    with warnings.catch_warnings():  # the breakpoints were looked at above, under the name that was typed
+            doubt_values(_USUAL[name], points, name if name in others else f"--axis {name}")
+    with warnings.catch_warnings():  # they were looked at above, under the name that was typed
         warnings.simplefilter("ignore", PlausibilityWarning)
         plan = lookup.estimate(pair, axes, tables=len(names), **options)
         typer.echo(f"{plan.poses} poses, {1e-6 * plan.size:.2g} MB, about {plan.seconds:.2g} s", err=True)
@@ -120,6 +124,10 @@ def _breakpoints(text: str) -> tuple[str, np.ndarray]:
         if ":" not in values:
             return name, np.array([float(value) for value in values.split(",")])
         low, high, number = values.split(":")
+        if not 2 <= int(number) <= _MOST:
+            raise ValueError
         return name, np.linspace(float(low), float(high), int(number))
     except ValueError:
-        raise ContactError(f"--axis {text}: give NAME=FROM:TO:NUMBER or NAME=A,B,C") from None
+        raise ContactError(
+            f"--axis {text}: give NAME=FROM:TO:NUMBER, the number of breakpoints from 2 to {_MOST}, or NAME=A,B,C"
+        ) from None

@@ -33,7 +33,6 @@ _WORDS = (
     (r"\brotated\((\S+)\) turns the wheel", r"--profile-rotation \1 0 turns the wheel"),
     (r"\brotated\((\S+)\) turns the rail", r"--profile-rotation 0 \1 turns the rail"),
     (r"\b(kind|unit|side) = None(?=[:,])", r"--profile-\1"),
-    (r"^(kind|unit|side) = ('[^']*' is none of)", r"--profile-\1 \2"),
     (r"\bset (unit|side|section)\b", r"set --profile-\1"),
     (r" \(throw=False [^)]*\)", ""),
     ("of the given separation; extend y", "of a profile"),
@@ -57,7 +56,7 @@ def reported(command: Command) -> Command:
         given = {option: kwargs[name] for name, (option, _) in flags.items() if kwargs.get(name) is not None}
         typed = [option for option, usual in flags.values() if option in given and given[option] != usual]
         try:
-            with warnings.catch_warnings(), running(name, kwargs):
+            with warnings.catch_warnings(), running(name, kwargs, given):
                 for kind in _OWN:
                     warnings.simplefilter("default", kind)  # once, though both wheels have the same load
                 warnings.showwarning = _teller(given)
@@ -120,7 +119,7 @@ def _typed(found: re.Match[str], given: Mapping[str, Any], refused: Collection[s
 def _shown(value: Any, *, inside: bool = True) -> set[str]:
     """Return how messages may show a value, or one of those in it."""
     parts = value if inside and isinstance(value, tuple | list) else ()
-    shown = f"{value:g}" if isinstance(value, int | float) else str(value)
+    shown = f"{value:g}" if isinstance(value, int | float) and not isinstance(value, bool) else str(value)
     return {shown, repr(shown), repr(value)}.union(*map(_shown, parts))
 
 

@@ -11,6 +11,7 @@ from rich.console import Console
 
 from contact.cli import arguments
 from contact.cli import options as opt
+from contact.cli.document import GIVEN
 from contact.cli.output import BAD_INPUT, drawing, in_options, reported, stop
 from contact.errors import ContactError
 from contact.geometry import profile
@@ -50,7 +51,7 @@ def check(
 
     def show(console: Console) -> None:
         for one in found:
-            console.print(in_options(str(one), {}), markup=False, highlight=False, soft_wrap=True)
+            console.print(in_options(str(one), GIVEN.get()), markup=False, highlight=False, soft_wrap=True)
 
     output.deliver(
         {"files": [_plain(one) for one in found], "unread": unread},
@@ -59,7 +60,7 @@ def check(
         figure=lambda: drawing().profile_check(found[0]),
     )
     if unread:
-        stop("\n".join(in_options(text, {}) for text in dict.fromkeys(unread)), BAD_INPUT)
+        stop("\n".join(in_options(text, GIVEN.get()) for text in dict.fromkeys(unread)), BAD_INPUT)
 
 
 def _files(given: list[Path]) -> Iterator[Path]:

@@ -39,7 +39,7 @@ from contact.halfspace.unlike import Coupling
 from contact.inputs.creepage import Creepage, as_creepage
 from contact.inputs.material import STEEL, Material
 from contact.inputs.options import APPROACH, LOAD
-from contact.inputs.plausibility import doubt_case, doubt_value
+from contact.inputs.plausibility import doubt_rolling
 from contact.inputs.separation import Separation
 from contact.instance.ownership import OwnsArrays, one_thread, within
 from contact.results import Status, doubt_step
@@ -186,8 +186,7 @@ class Transient(OwnsArrays):
         numbers = {"longitudinal": longitudinal, "lateral": lateral, "rotation": rotation}
         moved = Creepage(*(require_number(name, value) for name, value in numbers.items()))
         within(self.take)(load, approach, gap)
-        self._usual((0.0, 0.0, 0.0), shift=max(abs(moved.longitudinal), abs(moved.lateral)))
-        return self._step(moved, 0.0, None if self._local else self.friction.static, force)
+        return self._step(moved, 0.0, force)
 
     @one_thread
     def roll(
@@ -222,8 +221,7 @@ class Transient(OwnsArrays):
         """
         step = require_number("distance", distance, 0.0, self.longest_step, open_minimum=True)
         within(self.take)(load, approach, gap)
-        creepage = self._usual(creepage)
-        solution = self._step(creepage, step, self._coefficient(creepage), force, sliding)
+        solution = self._step(as_creepage(creepage), step, force, sliding)
         doubt_step(self.told, step, self._stepper.dx, int(np.count_nonzero(self._state.p.any(axis=0))))
         self.distance += step
         return solution
@@ -240,8 +238,7 @@ class Transient(OwnsArrays):
     ) -> GridSolution:
         """Roll until nothing changes any more, and return the solution of steady rolling. Arguments as for `roll`."""
         within(self.take)(load, approach, gap)
-        creepage = self._usual(creepage)
-        return self._step(creepage, math.inf, self._coefficient(creepage), force)
+        return self._step(as_creepage(creepage), math.inf, force)
 
     @one_thread
     def forget(self, *, keep_pressure: bool = False) -> None:
@@ -326,11 +323,6 @@ class Transient(OwnsArrays):
         x, y = self._grid.x, self._grid.y
         return Stepper(x, y, self.material, self.layer, self.law, self.speed, self._turns, self._progress)
 
-    def _coefficient(self, creepage: Creepage) -> float | None:
-        """Return the coefficient of a step [-]; None where it is that of each element."""
-        slip = math.hypot(creepage.longitudinal, creepage.lateral)
-        return None if self._local else float(self.friction.coefficient(self.speed * slip))
-
     @one_thread
     def take(self, load: float | None = None, approach: float | None = None, gap: Gap | None = None) -> None:
         """Take another load [N], approach [m] or gap for the steps that follow, as `shift` and `roll` do."""
@@ -372,28 +364,14 @@ class Transient(OwnsArrays):
             self._normal, self._pressed = found, self._amount
         return found
 
-    def _usual(self, creepage: Creepage | tuple[float, float, float], shift: float = 0.0) -> Creepage:
-        """Return the creepage, and warn once of what no wheel on a rail has. A gap on a grid may be of another scale."""
-        creepage = as_creepage(creepage)
-        if isinstance(self._gap, Separation):
-            vector = creepage.longitudinal, creepage.lateral, creepage.spin
-            doubt_case(
-                self._amount.get("load"),
-                self._amount.get("approach"),
-                vector,
-                self.friction.static,
-                self.speed,
-                self.told,
-            )
-            if "shift" not in self.told and doubt_value("shift", shift):
-                self.told.add("shift")
-        return creepage
-
-    def _step(
-        self, motion: Creepage, distance: float, mu: float | None, force: Force | None, sliding: bool = False
-    ) -> GridSolution:
+    def _step(self, motion: Creepage, distance: float, force: Force | None, sliding: bool = False) -> GridSolution:
         """Return the solution of one step; `distance` 0 is a shift, then everything is in metres instead of over V."""
         grid, friction = self._grid, self.friction
+        if isinstance(self._gap, Separation):  # a gap on a grid may be of another scale
+            doubt_rolling(self._amount, motion, distance, friction.static, self.speed, self.told)
+        mu = None if self._local else friction.static
+        if mu is not None and distance > 0.0:
+            mu = float(friction.coefficient(self.speed * math.hypot(motion.longitudinal, motion.lateral)))
         factor = friction.factor(grid.y)[:, None] if friction.gauge_factor != 1.0 else 1.0
         given = (None, None) if force is None else wanted_force(force)
         self._stepper.progress = self._progress

@@ -7,12 +7,14 @@ A doubtful value is allowed and gives a `contact.errors.PlausibilityWarning`. Sh
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from contact.errors import ModelWarning, doubt, warn
+from contact.inputs.creepage import Creepage
 
 
 class Usual(NamedTuple):
@@ -129,3 +131,14 @@ def doubt_case(
     for name, value in zip(_CASE, (load, approach, *creepage, friction, speed), strict=True):
         if value is not None and name not in doubted and doubt_value(name, value):
             doubted.add(name)
+
+
+def doubt_rolling(
+    amount: Mapping[str, float], motion: Creepage, distance: float, friction: float, speed: float, doubted: set[str]
+) -> None:
+    """As `doubt_case`, of a step of `contact.Transient`. Where the distance is 0 the motion is a shift [m]."""
+    vector = motion.longitudinal, motion.lateral, motion.spin
+    rolls = distance > 0.0
+    doubt_case(amount.get("load"), amount.get("approach"), vector if rolls else (0.0,) * 3, friction, speed, doubted)
+    if not rolls and "shift" not in doubted and doubt_value("shift", max(abs(vector[0]), abs(vector[1]))):
+        doubted.add("shift")

@@ -209,7 +209,7 @@ def interpolation_error(
 
     `options` are those that the table was made with. Points without a trustworthy solution are left out.
     """
-    at = _random(table.axes, require_integer("points", points, 1), seed)
+    at = _random(table.axes, require_integer("points", points, 1, 1_000_000), seed)
     found, interpolated = over_poses(pair, **at, **options), table.interpolated(**at)
     errors = {}
     for name, values in interpolated.items():

@@ -92,6 +92,11 @@ def test_bad_scenario_ends_with_a_message(call, tmp_path):
     assert "case.toml.recording.spacing = 'wide' is not a number" in ended.output
 
 
+def test_a_value_of_a_file_is_not_told_as_that_of_a_flag(call, tmp_path):
+    (tmp_path / "case.toml").write_text(SCENARIO.replace("speed = 20.0", "speed = 0"), encoding="utf-8")
+    assert "case.toml: speed = 0 is outside the allowed range [0.1, 150]" in call("out").output
+
+
 def test_json_of_a_run_names_its_files_and_how_far_it_can_be_trusted(call, tmp_path, monkeypatch):
     monkeypatch.setattr(report, "page_of", lambda run, nonlinear: "")
     answer = json.loads(call("out", "--json").stdout)

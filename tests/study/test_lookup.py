@@ -105,6 +105,17 @@ def test_the_command_tells_plan_error_and_file(tmp_path):
     assert "6 poses" in said.output
     assert "Fx" in said.output
     assert np.load(path)["Fx"].shape == (3, 2)
-    for wrong, message in (("y=1:2", "give NAME=FROM:TO:NUMBER"), ("yew=0:1:3", "'yew' is none of")):
+    for wrong, message in (
+        ("y=1:2", "give NAME=FROM:TO:NUMBER"),
+        ("yew=0:1:3", "'yew' is none of"),
+        ("y=0:1e-3:1000000000", "from 2 to 1000000"),
+    ):
         assert message in call("lut", "--axis", wrong, "--out", path, code=2).output
+    assert "--check" in call("lut", "--check", 10**12, "--out", path, code=2).stderr
+    said = call("lut", "--axis", "y=0:1e-3:2", "--load", 80, "--speed", 300, "--check", 1, "--out", path).stderr
+    assert [line.partition(": a")[0].partition(": the")[0] for line in said.splitlines() if "warning" in line] == [
+        "contact: warning: --load 80",
+        "contact: warning: --speed 300",
+    ]
+    assert "a name stands twice" in call("lut", *["--axis", "y=0:1e-3:2"] * 2, "--out", path, code=2).output
     assert "ends in one of" in call("lut", "--out", tmp_path / "t.xlsx", code=2).output

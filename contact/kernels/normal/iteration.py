@@ -43,6 +43,8 @@ TOLERANCE = 1e-4
 #: Limits at which the iteration stops: what mixing leaves of the step, over the tolerance, which tells the error of the force,
 #: and, with steps by the Jacobian of an ellipse, the residuals, over its square root.
 LEFT, CLOSE = 1.0, 0.4
+#: Share of this limit for the ends: where several strips at an end are wrong together, its rule tells too little.
+ENDS_CLOSE = 0.25
 #: Share of the tolerance below which a warm start is the answer as it is. Up to all of it small steps of a way would leave
 #: the start behind.
 STILL = 0.3
@@ -344,16 +346,16 @@ def accept(problem, state):
     """Return whether the unknowns are at rest and nothing lies outside the panels. Otherwise change them by the step.
 
     With the load-weighted mean |r| of half lengths and offsets, the largest move m of an end over its width, and the
-    tolerance ε, they are at rest if |r| < ε and m < 2ε, with steps by the Jacobian, whose error is a quarter of r, if |r| and
-    m < .4√ε, and in both cases if the mixing leaves less than ε of the step. The last step is taken, but for a start with less
-    than `STILL` of ε: a call that is repeated has the same bits. Skewed strips with fixed ends are left at |r| < `ACCEPTABLE`.
-    The panel with the largest pressure must be at rest by itself, and before every strip.
+    tolerance ε, they are at rest if |r| < ε and m < 2ε, with steps by the Jacobian, whose error is a quarter of r, if |r| <
+    .4√ε and m < .1√ε, and in both cases if the mixing leaves less than ε of the step. The last step is taken, but for a start
+    with less than `STILL` of ε: a call that is repeated has the same bits. Skewed strips with fixed ends are left at |r| <
+    `ACCEPTABLE`. The panel with the largest pressure must be at rest by itself, and before every strip.
     """
     age, error, moved, tolerance = state.number - state.begun, state.error, state.moved, problem.tolerance
     close = CLOSE * math.sqrt(tolerance)
     done = state.cut == 0 and state.left < LEFT * tolerance
     exact = done and error < tolerance * state.load and moved < 2.0 * tolerance
-    settled = done and state.descending != 0 and error < close * state.load and moved < close
+    settled = done and state.descending != 0 and error < close * state.load and moved < ENDS_CLOSE * close
     calm = problem.skew > 0.0 and age >= FREEZE and state.cut == 0
     calm = calm and error < ACCEPTABLE * state.load and moved < close
     state.found = 0
