@@ -593,25 +593,26 @@ enum {
     WR_DOUBT_CREEPAGE_SPIN = 16,
     WR_DOUBT_FRICTION = 32,
     WR_DOUBT_SPEED = 64,
-    WR_DOUBT_A = 128,
-    WR_DOUBT_EXTENT_OF_Y = 256,
-    WR_DOUBT_SHEAR_MODULUS = 512,
-    WR_DOUBT_PRESSURE_LIMIT = 1024,
-    WR_DOUBT_POSE_Y = 2048,
-    WR_DOUBT_POSE_ROLL = 4096,
-    WR_DOUBT_POSE_YAW = 8192,
-    WR_DOUBT_VELOCITY_Y = 16384,
-    WR_DOUBT_VELOCITY_Z = 32768,
-    WR_DOUBT_VELOCITY_ROLL = 65536,
-    WR_DOUBT_VELOCITY_YAW = 131072,
-    WR_DOUBT_SLIP = 262144,
-    WR_DOUBT_WHEEL_LOAD = 524288,
-    WR_DOUBT_WHEEL_RADIUS = 1048576,
-    WR_DOUBT_BEND = 2097152,
-    WR_DOUBT_BEYOND = 4194304,
-    WR_DOUBT_GAP_ERROR = 8388608,
-    WR_DOUBT_GAP_ERROR_INTERACTING = 16777216,
-    WR_DOUBT_N = 33554432,
+    WR_DOUBT_SHIFT = 128,
+    WR_DOUBT_A = 256,
+    WR_DOUBT_EXTENT_OF_Y = 512,
+    WR_DOUBT_SHEAR_MODULUS = 1024,
+    WR_DOUBT_PRESSURE_LIMIT = 2048,
+    WR_DOUBT_POSE_Y = 4096,
+    WR_DOUBT_POSE_ROLL = 8192,
+    WR_DOUBT_POSE_YAW = 16384,
+    WR_DOUBT_VELOCITY_Y = 32768,
+    WR_DOUBT_VELOCITY_Z = 65536,
+    WR_DOUBT_VELOCITY_ROLL = 131072,
+    WR_DOUBT_VELOCITY_YAW = 262144,
+    WR_DOUBT_SLIP = 524288,
+    WR_DOUBT_WHEEL_LOAD = 1048576,
+    WR_DOUBT_WHEEL_RADIUS = 2097152,
+    WR_DOUBT_BEND = 4194304,
+    WR_DOUBT_BEYOND = 8388608,
+    WR_DOUBT_GAP_ERROR = 16777216,
+    WR_DOUBT_GAP_ERROR_INTERACTING = 33554432,
+    WR_DOUBT_N = 67108864,
 };
 
 /* X(name, its text, largest and least usual magnitude, what is usual) */
@@ -623,6 +624,7 @@ enum {
     X(CREEPAGE_SPIN, "creepage.spin", 20.0, 0.0, "a flange has about 2; the unit is 1/m") \
     X(FRICTION, "friction", 1.0, 0.0, "steel on steel has 0.05 to 0.6") \
     X(SPEED, "speed", 170.0, 0.0, "the fastest train ran 160 m/s; is it in km/h?") \
+    X(SHIFT, "shift", 0.001, 0.0, "bodies in contact slide after some micrometres; the unit is m") \
     X(A, "A", 200.0, 0.02, "a wheel has 1/(2 radius), 1.1 for a radius of 0.46 m; the unit is 1/m") \
     X(EXTENT_OF_Y, "extent of y", 1.0, 0.0, "a wheel or a rail's head is less than 0.2 m wide; the unit is m") \
     X(SHEAR_MODULUS, "shear_modulus", 10000000000000.0, 10000000.0, "steel has 8.2e10; the unit is Pa") \

@@ -115,7 +115,9 @@ class Space(NamedTuple):
     grid: Annotated[Matrix, "len(Sample), size.n_samples"]
     turned: Annotated[Matrix, "len(Sep), size.n_samples if size.interacting else 1"]
     vectors: Annotated[Matrix, "N_VECTOR_ROWS, MAX_PATCHES * size.n_strips"]
-    logs: Annotated[Matrix, "MAX_PATCHES * PROBES if size.interacting else 1, coupled(size) + MAX_PATCHES"]
+    logs: Annotated[
+        Matrix, "MAX_PATCHES * max(size.n_strips, PROBES) if size.interacting else 1, coupled(size) + MAX_PATCHES"
+    ]
     matrix: Annotated[Matrix, "coupled(size), coupled(size)"]
     lu: Annotated[Matrix, "coupled(size), coupled(size)"]
     iteration: Annotated[Iterations, "1"]

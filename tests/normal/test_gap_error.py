@@ -22,11 +22,11 @@ def test_a_lobe_without_a_patch_is_seen():
     assert both.gap_error < 0.01
 
 
-@pytest.mark.parametrize("length", [2e-3, 3e-3])
+@pytest.mark.parametrize("length", [1.9e-3, 2e-3])
 def test_waves_that_strips_do_not_see_are_told_about_as_large_as_they_are(length):
-    """Rounded coordinates leave waves of some micrometres. 20 strips of about 1.6 mm do not see these, 80 do."""
+    """Rounded coordinates leave waves of about a micrometre. 20 strips of about 1.6 mm do not see these, 80 do."""
     y = np.linspace(-0.03, 0.03, 401)
-    waves = 1.5e-6 * np.cos(2.0 * np.pi * y / length)
+    waves = 0.75e-6 * np.cos(2.0 * np.pi * y / length)
     creepage, load = contact.Creepage(), 80e3
     smooth, rough = (contact.Separation(y, 0.3 * y**2 + wave, np.full(y.size, 1.1)) for wave in (0.0, waves))
     few, many = (contact.solve(rough, creepage, load=load, n_strips=n, throw=False) for n in (20, 80))

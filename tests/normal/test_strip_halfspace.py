@@ -230,6 +230,6 @@ def test_the_end_strips_of_every_panel_lose_the_least_length_of_an_earlier_call(
     n, two = 6, 2
     vectors = np.ones((len(Vector), two * n))  # all half lengths and their bounds are 1 m
     vectors[Vector.LN_A], vectors[Vector.GAP] = math.log(5e-3), 0.0
-    half_lengths(vectors, n, two, 1e-4)
+    half_lengths(np.array([0.0, 1e-3, 2e-3, 3e-3]), vectors, n, two, 1e-4)
     assert not vectors[Vector.FLOOR, [0, n - 1, n, two * n - 1]].any()
     assert np.all(vectors[Vector.A] <= 5e-3 * (1.0 + 1e-12))

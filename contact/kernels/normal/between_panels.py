@@ -1,7 +1,7 @@
 """Displacement of each panel of strips by the other panels: found at a few probes, interpolated between them.
 
-Panels do not overlap, so the displacement by other panels is smooth across a panel. It is calculated at `PROBES` strips
-that lie nearly at Chebyshev's nodes. The polynomial through them serves the other strips.
+The displacement by panels that are not near is smooth across a panel. It is calculated at `PROBES` strips that lie nearly at
+Chebyshev's nodes. The polynomial through them serves the other strips. If a panel is near, every strip is a probe.
 """
 
 import math
@@ -14,6 +14,8 @@ from contact.kernels.rows import Pair, Vector
 
 #: Number of strips of a panel at which the displacement by other panels is calculated.
 PROBES = 6
+#: Distance of another panel over the half length in a panel's middle below which it is calculated at every strip.
+_NEAR = 0.1
 #: Offset along x over the half length below which strips count as in line. The table off the centre line is not more exact.
 IN_LINE = 0.01
 
@@ -53,6 +55,31 @@ def _spread(u, spread, out):
         out[i] = u0 * s0[i] + u1 * s1[i] + u2 * s2[i] + u3 * s3[i] + u4 * s4[i] + u5 * s5[i]
 
 
+@entry
+def is_shared(end: int, n_panels: int, panels: Numbers) -> bool:
+    """Return whether two panels meet in an end: number 2p is the lower one of panel p, 2p + 1 the upper one."""
+    shared = False
+    for p in range(n_panels):
+        shared = shared or panels[2 * p + 1 - end % 2] == panels[end]
+    return shared
+
+
+@kernel
+def _probes_of(p, n_panels, panels, n, vectors):
+    """Return the number of probes of a panel: all its strips if another panel is near, where a polynomial would swing."""
+    near = _NEAR * vectors[Vector.A, p * n + n // 2]
+    for q in range(n_panels):
+        if q != p and max(panels[2 * q] - panels[2 * p + 1], panels[2 * p] - panels[2 * q + 1]) < near:
+            return n
+    return PROBES
+
+
+@kernel
+def _probe(m, n, count, probes):
+    """Return the strip that is probe m of `count` in its panel of n strips."""
+    return m if count == n else int(probes[m])
+
+
 @kernel
 def distances(panels, n_panels, workspace):
     """Fill `workspace.space.logs[i, k]` with ln|Y_k - y_i| of each probe i to each edge k of other panels, n + 1 a panel."""
@@ -60,18 +87,19 @@ def distances(panels, n_panels, workspace):
     n = cosines.size - 1
     for p in range(n_panels):
         least = 0.5e-12 * (panels[2 * p + 1] - panels[2 * p])
+        count = _probes_of(p, n_panels, panels, n, vectors)
         for q in range(n_panels):
             if p == q:
                 continue
             centre, half = 0.5 * (panels[2 * q] + panels[2 * q + 1]), 0.5 * (panels[2 * q + 1] - panels[2 * q])
-            for m in range(PROBES):
-                at = vectors[Vector.Y, p * n + int(workspace.rule.probes[m])]
+            for m in range(count):
+                at = vectors[Vector.Y, p * n + _probe(m, n, count, workspace.rule.probes)]
                 for k in range(n + 1):
-                    logs[p * PROBES + m, q * (n + 1) + k] = math.log(max(abs(centre + half * cosines[k] - at), least))
+                    logs[p * n + m, q * (n + 1) + k] = math.log(max(abs(centre + half * cosines[k] - at), least))
 
 
 @kernel
-def assemble_others(n_panels, workspace, unit):
+def assemble_others(panels, n_panels, workspace, unit):
     """Fill `workspace.space.matrix[j, i]` for every strip j and the strips i of the other panels.
 
     It is the displacement on the centre line of strip i by unit peak pressure on strip j. `unit` is 1/(pi E*).
@@ -86,20 +114,24 @@ def assemble_others(n_panels, workspace, unit):
             a, row = vectors[Vector.A, j], matrix[j]
             scale, ln_a, inverse = a * unit, vectors[Vector.LN_LENGTH, j], 1.0 / a
             for p in range(n_panels):
-                for m in range(PROBES if p != q else 0):
-                    at = logs[p * PROBES + m]
+                count = _probes_of(p, n_panels, panels, n, vectors) if p != q else 0
+                for m in range(count):
+                    at = logs[p * n + m]
                     left, right = at[j + q] - ln_a, at[j + q + 1] - ln_a
-                    X = abs(vectors[Vector.XC, p * n + int(probes[m])] - vectors[Vector.XC, j]) * inverse
+                    X = abs(vectors[Vector.XC, p * n + _probe(m, n, count, probes)] - vectors[Vector.XC, j]) * inverse
                     if X > IN_LINE:
                         at_probes[m] = scale * off_line(centre, plane, X, max(right, left), min(right, left))
                     else:
                         at_probes[m] = scale * abs(at_centre(centre, right) - at_centre(centre, left))
-                if p != q:
+                if count == n:
+                    for m in range(n):
+                        row[p * n + m] = at_probes[m]
+                elif p != q:
                     _spread(at_probes, spread, row[p * n : p * n + n])
 
 
 @kernel
-def add_others(p, n_panels, workspace, skewed):
+def add_others(p, panels, n_panels, workspace, skewed):
     """Add to Vector.U the displacement at the ends of panel p's strips by the other panels, the mean of both ends.
 
     The rows Q2 and R of the vectors hold 1/a and p0·a/(pi E*). Both ends differ if strips are `skewed`. Then
@@ -112,9 +144,10 @@ def add_others(p, n_panels, workspace, skewed):
     logs_a, inverses = vectors[Vector.LN_LENGTH], vectors[Vector.Q2]
     forces, loci = vectors[Vector.R], vectors[Vector.XC]
     pairs = vectors[Vector.PAIRS : Vector.PAIRS + len(Pair)]
-    for m in range(PROBES):
-        strip = p * n + int(workspace.rule.probes[m])
-        a, x, at = vectors[Vector.A, strip], loci[strip], logs[p * PROBES + m]
+    count = _probes_of(p, n_panels, panels, n, vectors)
+    for m in range(count):
+        strip = p * n + _probe(m, n, count, workspace.rule.probes)
+        a, x, at = vectors[Vector.A, strip], loci[strip], logs[p * n + m]
         trailing, leading = 0.0, 0.0
         for q in range(n_panels):
             for end in range(0 if q == p else 2 if skewed else 1):
@@ -130,6 +163,10 @@ def add_others(p, n_panels, workspace, skewed):
                 else:
                     leading += by_panel
         u = 0.5 * (trailing + leading) if skewed else trailing
+        if count == n:
+            U[m] += u
+            difference[m] += leading - trailing if skewed else 0.0
+            continue
         for i in range(n):
             U[i] += spread[m, i] * u
         if skewed:

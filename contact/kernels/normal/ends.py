@@ -4,6 +4,7 @@ import math
 
 from contact.core import entry, kernel
 from contact.kernels.arrays import Matrix, Numbers
+from contact.kernels.normal.between_panels import is_shared
 from contact.kernels.normal.descent import END_SLOPE, END_STEP, END_VALUE
 from contact.kernels.rows import Vector
 
@@ -143,19 +144,23 @@ def go_far(n, n_panels, panels, cosines, vectors):
 
 
 @kernel
-def end_move(vectors, n, first, step, cosines, frozen, calm, skewed):
+def end_move(vectors, n, first, step, cosines, shared, frozen, calm, skewed):
     """Return the outward move of one end of a panel over its half width.
 
     `first` is the strip at this end, `step` the step to its neighbour. The share of the first pressure in the rule replaces
-    that pressure in Vector.END. A `frozen` end keeps its place, and idle strips with it, unless the half lengths are `calm` and
-    the pressure rises towards it, as at the corner of a punch or in the last strip alone. It goes as far as the rule tells only
-    to the corner of a punch in patches that are not `skewed`: elsewhere that is a direction, and the gap tells what lies there.
+    that pressure in Vector.END. An end that is `shared` with another panel only leaves idle strips, and the panels part there.
+    A `frozen` end keeps its place, and idle strips with it, unless the half lengths are `calm` and the pressure rises towards
+    it, as at the corner of a punch or in the last strip alone. It goes as far as the rule tells only to the corner of a punch
+    in patches that are not `skewed`: elsewhere that is a direction, and the gap tells what lies there.
     """
     p0, p1, p2 = vectors[Vector.END, first], vectors[Vector.P, first + step], vectors[Vector.P, first + 2 * step]
     idle = idle_strips(vectors, n, first, step)
     if idle >= 2 or p2 <= 0.0:
         vectors[Vector.END, first] = 0.0
         return -(1.0 + cosines[idle]) if idle >= 2 and not frozen else 0.0
+    if shared:
+        vectors[Vector.END, first] = 1.0
+        return 0.0
     punch, spur = (p1 / p2) ** 2 >= _PUNCH and p0 >= p1, p0 > SPUR * max(p1, p2)
     if frozen and not (calm and (punch or spur)):
         vectors[Vector.END, first] = 0.0
@@ -190,9 +195,9 @@ def end_moves(
         first, last = p * n, p * n + n - 1
         low, high = panels[2 * p], panels[2 * p + 1]
         half = 0.5 * (high - low)
-        move = end_move(vectors, n, first, 1, cosines, frozen, calm, skewed)
+        move = end_move(vectors, n, first, 1, cosines, is_shared(2 * p, n_panels, panels), frozen, calm, skewed)
         vectors[Vector.R, first] = max(low - half * move, y[0]) - low
-        move = end_move(vectors, n, last, -1, cosines, frozen, calm, skewed)
+        move = end_move(vectors, n, last, -1, cosines, is_shared(2 * p + 1, n_panels, panels), frozen, calm, skewed)
         vectors[Vector.R, last] = min(high + half * move, y[y.size - 1]) - high
         largest = max(largest, max(abs(vectors[Vector.R, first]), abs(vectors[Vector.R, last])) / (high - low))
     return largest

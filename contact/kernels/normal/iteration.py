@@ -23,12 +23,19 @@ from contact.kernels.normal.ends import end_moves, go_far, have_idle_part, is_fa
 from contact.kernels.normal.mixing import advance, largest_step, mix
 from contact.kernels.normal.notes import note, note_event
 from contact.kernels.normal.panels import EARLY_GHOST, GHOST, extend_to_ghosts, start_panels
-from contact.kernels.normal.partition import cut_idle, have_gap, join_panels, part_panels, remove_unloaded
+from contact.kernels.normal.partition import (
+    cut_idle,
+    divide,
+    have_gap,
+    join_panels,
+    part_panels,
+    remove_unloaded,
+)
 from contact.kernels.normal.residuals import AT_PEAK, fill_residuals, find_pressures, is_stiff, stands_alone
 from contact.kernels.normal.start import WARM, stirs
 from contact.kernels.normal.strip_system import edge_displacements
 from contact.kernels.normal.turned import turn_panels
-from contact.kernels.rows import Event, Vector
+from contact.kernels.rows import Event, Sample, Vector
 
 #: Load-weighted mean change of ln a, and change of the ends over the width, at which the iteration stops, if the case does
 #: not say another one.
@@ -90,6 +97,27 @@ def _reset(problem, warm, state):
 
 
 @kernel
+def _divide(problem, state):
+    """Part and join panels where the gap has ridges or none any more. Return whether anything changed."""
+    workspace, before = problem.workspace, state.n_panels
+    slopes, cosines = workspace.space.grid[Sample.GAP_SLOPE], workspace.rule.cosines
+    state.n_panels, changed = divide(
+        problem.sep,
+        slopes,
+        state.approach,
+        workspace.rule.across.nodes.size,
+        before,
+        problem.panels,
+        cosines,
+        workspace.space.vectors,
+    )
+    if changed:
+        state.mixed, state.best = 0, math.inf
+        note_event(problem, state, Event.PARTED.value if state.n_panels >= before else Event.JOINED.value)
+    return changed
+
+
+@kernel
 def _start_afresh(problem, state):
     """Start from ANALYN's patches, under yaw from turned ellipses instead of them."""
     workspace, panels = problem.workspace, problem.panels
@@ -98,6 +126,7 @@ def _start_afresh(problem, state):
     if problem.skew > 0.0:
         turn_panels(problem.sep, state.n_panels, n, strips, problem.skew, problem.by_load, panels, vectors)
     _reset(problem, 0, state)
+    _divide(problem, state)
 
 
 @kernel
@@ -109,6 +138,7 @@ def begin(problem, n_panels, most, state):
     if n_panels > 0:
         state.n_panels = n_panels
         _reset(problem, 1, state)
+        _divide(problem, state)
     else:
         _start_afresh(problem, state)
 
@@ -281,6 +311,7 @@ def _take(problem, state):
     if joined:
         state.mixed, state.best = 0, math.inf
         note_event(problem, state, Event.JOINED.value)
+        _divide(problem, state)
 
 
 @kernel
@@ -333,6 +364,8 @@ def accept(problem, state):
     if (exact or settled or calm) and state.at_peak < AT_PEAK and (age >= LATE or state.at_strip < ZIGZAG):
         if _swings(problem, state):
             _stiffen(state)
+        elif _divide(problem, state):
+            return False
         elif not _search(problem, state, GHOST):
             state.converged = 1 if exact or settled else 0
             still = exact and age == 0 and max(error / state.load, 0.5 * moved) < STILL * tolerance

@@ -4,8 +4,9 @@ import math
 
 from contact.core import entry, kernel
 from contact.kernels import cubic
-from contact.kernels.arrays import Matrix
+from contact.kernels.arrays import Matrix, Numbers
 from contact.kernels.cubic import locate
+from contact.kernels.normal.between_panels import is_shared
 from contact.kernels.normal.descent import END_LENGTH
 from contact.kernels.normal.strip_system import displacement_outside
 from contact.kernels.records import MAX_PATCHES
@@ -114,12 +115,13 @@ def place_middles(vectors, n, n_panels, delta):
 
 
 @entry
-def half_lengths(vectors: Matrix, n: int, n_panels: int, delta: float) -> None:
+def half_lengths(panels: Numbers, vectors: Matrix, n: int, n_panels: int, delta: float) -> None:
     """Fill half lengths a and their logarithms, LN_LENGTH, from ln a, at the approach `delta` above first touch [m].
 
-    Strips at the ends follow the square root of the edge. No strip may collapse beside its neighbours. None may be longer
-    than the virtual penetration, A a² = delta - g: the pressure displaces its ends outwards. Without this bound the length
-    of a strip with hardly any pressure, near the end of a skewed patch, can grow until it carries the load.
+    Strips at the ends follow the square root of the edge, but have their neighbours' lengths where two panels meet. No strip
+    may collapse beside its neighbours. None may be longer than the virtual penetration, A a² = delta - g: the pressure
+    displaces its ends outwards. Without this bound the length of a strip with hardly any pressure, near the end of a skewed
+    patch, can grow until it carries the load.
     """
     for p in range(n_panels):
         first = p * n
@@ -130,10 +132,10 @@ def half_lengths(vectors: Matrix, n: int, n_panels: int, delta: float) -> None:
                 vectors[Vector.A, i], vectors[Vector.LN_A, i] = math.sqrt(square), 0.5 * math.log(square)
             vectors[Vector.FLOOR, i] = 0.0
         vectors[Vector.FLOOR, first] = vectors[Vector.FLOOR, first + n - 1] = 0.0
-        vectors[Vector.A, first] = END_LENGTH * vectors[Vector.A, first + 1]
-        vectors[Vector.A, first + n - 1] = END_LENGTH * vectors[Vector.A, first + n - 2]
-        vectors[Vector.LN_LENGTH, first] = _LN_END + vectors[Vector.LN_A, first + 1]
-        vectors[Vector.LN_LENGTH, first + n - 1] = _LN_END + vectors[Vector.LN_A, first + n - 2]
+        for end, beside, number in ((first, first + 1, 2 * p), (first + n - 1, first + n - 2, 2 * p + 1)):
+            shared = is_shared(number, n_panels, panels)
+            vectors[Vector.A, end] = (1.0 if shared else END_LENGTH) * vectors[Vector.A, beside]
+            vectors[Vector.LN_LENGTH, end] = (0.0 if shared else _LN_END) + vectors[Vector.LN_A, beside]
         for i in range(first + 1, first + n - 1):
             if vectors[Vector.ACTIVE, i] != 0.0:
                 floor = 0.3 * max(vectors[Vector.A, i - 1], vectors[Vector.A, i + 1])

@@ -35,8 +35,8 @@ def find_pressures(problem, delta, n_panels):
     lay_panels(problem.sep, problem.touch, problem.skew, panels, n_panels, workspace)
     if problem.skew > 0.0:
         place_middles(workspace.space.vectors, n, n_panels, delta)
+    half_lengths(panels, workspace.space.vectors, n, n_panels, delta)
     distances(panels, n_panels, workspace)
-    half_lengths(workspace.space.vectors, n, n_panels, delta)
     set_factors(panels, n_panels, problem.skew > 0.0, workspace.rule.factors, n, workspace.space.vectors)
     assemble(panels, n_panels, workspace, problem.skew > 0.0, problem.unit)
     return solve_active(n, n_panels, workspace.space, problem.by_load, problem.amount)

@@ -22,6 +22,7 @@ from contact.core import kernel
 from contact.kernels.cubic import locate
 from contact.kernels.enumerations import LoadKind, Status
 from contact.kernels.normal.analyn import analyn, prepare
+from contact.kernels.normal.between_panels import is_shared
 from contact.kernels.normal.descent import COARSE
 from contact.kernels.normal.ends import SPUR
 from contact.kernels.normal.iteration import (
@@ -70,7 +71,7 @@ def write_strips(sep, n_panels, panels, skewed, workspace, result):
     work, strips = workspace.space.grid, workspace.strips
     y, n, size = sep.y, cosines.size - 1, sep.y.size
     count, patch = 0, -1
-    done = -math.inf
+    done, bears = -math.inf, False
     k = 0
     for _ in range(n_panels):  # panels in ascending order
         p = -1
@@ -81,7 +82,7 @@ def write_strips(sep, n_panels, panels, skewed, workspace, result):
             break
         done = panels[2 * p]
         centre, half = 0.5 * (panels[2 * p] + panels[2 * p + 1]), 0.5 * (panels[2 * p + 1] - panels[2 * p])
-        contiguous = False
+        contiguous = bears and is_shared(2 * p, n_panels, panels)
         for i in range(n):
             row = p * n + i
             if vectors[Vector.P, row] <= 0.0:
@@ -106,6 +107,7 @@ def write_strips(sep, n_panels, panels, skewed, workspace, result):
             strips[Strip.PATCH, count] = patch
             vectors[Vector.INDEX, count] = row
             count += 1
+        bears = contiguous
     return count
 
 

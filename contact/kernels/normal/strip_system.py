@@ -61,7 +61,7 @@ def assemble(panels, n_panels, workspace, skewed, unit):
         if skewed or not tabulated:
             _fill_off_line(first, n, half, workspace, unit)
     if n_panels > 1:
-        assemble_others(n_panels, workspace, unit)
+        assemble_others(panels, n_panels, workspace, unit)
 
 
 @kernel
@@ -111,7 +111,7 @@ def edge_displacements(panels, n_panels, workspace, skewed, unit):
         ln_half = math.log(0.5 * (panels[2 * p + 1] - panels[2 * p]))
         _add_panel(p * n, n, cosine_logs, ln_half, skewed, vectors, plane)
         if n_panels > 1:
-            add_others(p, n_panels, workspace, skewed)
+            add_others(p, panels, n_panels, workspace, skewed)
 
 
 @kernel

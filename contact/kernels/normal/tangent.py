@@ -176,7 +176,7 @@ def _fill_end_slopes(n, p, cosines, vectors, tangent):
                 vectors[Vector.P, at] = max(value, 0.0)
                 if k == 0:
                     vectors[Vector.END, first] = value
-            move = end_move(vectors, n, first, step, cosines, False, False, False)
+            move = end_move(vectors, n, first, step, cosines, False, False, False, False)
             if q < 0:
                 before = move
             else:
