@@ -16,16 +16,16 @@ import math
 from typing import Any, NamedTuple
 
 from contact.core import kernel
+from contact.kernels.normal.begin import divide_at_ridges, start_afresh
 from contact.kernels.normal.best import keep_best, take_best
 from contact.kernels.normal.brackets import damp_turns, keep_between, note_sides
 from contact.kernels.normal.descent import COARSE, descend, descend_offsets, has_one_run, straightening
 from contact.kernels.normal.ends import end_moves, go_far, have_idle_part, is_far
 from contact.kernels.normal.mixing import advance, largest_step, mix
 from contact.kernels.normal.notes import note, note_event
-from contact.kernels.normal.panels import EARLY_GHOST, GHOST, extend_to_ghosts, start_panels
+from contact.kernels.normal.panels import EARLY_GHOST, GHOST, extend_to_ghosts
 from contact.kernels.normal.partition import (
     cut_idle,
-    divide,
     have_gap,
     join_panels,
     part_panels,
@@ -34,8 +34,7 @@ from contact.kernels.normal.partition import (
 from contact.kernels.normal.residuals import AT_PEAK, fill_residuals, find_pressures, is_stiff, stands_alone
 from contact.kernels.normal.start import WARM, stirs
 from contact.kernels.normal.strip_system import edge_displacements
-from contact.kernels.normal.turned import turn_panels
-from contact.kernels.rows import Event, Sample, Vector
+from contact.kernels.rows import Event, Vector
 
 #: Load-weighted mean change of ln a, and change of the ends over the width, at which the iteration stops, if the case does
 #: not say another one.
@@ -85,72 +84,6 @@ class Problem(NamedTuple):
     by_load: Any
     amount: Any  # load [N] or approach above first touch [m]
     tolerance: Any
-
-
-@kernel
-def _reset(problem, warm, state):
-    """Set what belongs to a new start."""
-    state.begun, state.warm = state.number, warm
-    state.approach = problem.result.approach - problem.touch  # ANALYN's, until the first pressures are known
-    state.mixed, state.descending, state.stuck, state.searched, state.parted, state.stiff = 0, 0, 0, 0, 0, 0
-    state.last_error, state.best = math.inf, math.inf
-
-
-@kernel
-def _divide(problem, state):
-    """Part and join panels where the gap has ridges or none any more. Return whether anything changed."""
-    workspace, before = problem.workspace, state.n_panels
-    slopes, cosines = workspace.space.grid[Sample.GAP_SLOPE], workspace.rule.cosines
-    state.n_panels, changed = divide(
-        problem.sep,
-        slopes,
-        state.approach,
-        workspace.rule.across.nodes.size,
-        before,
-        problem.panels,
-        cosines,
-        workspace.space.vectors,
-    )
-    if changed:
-        state.mixed, state.best = 0, math.inf
-        note_event(problem, state, Event.PARTED.value if state.n_panels >= before else Event.JOINED.value)
-    return changed
-
-
-@kernel
-def _start_afresh(problem, state):
-    """Start from ANALYN's patches, under yaw from turned ellipses instead of them."""
-    workspace, panels = problem.workspace, problem.panels
-    strips, vectors, n = workspace.strips, workspace.space.vectors, workspace.rule.across.nodes.size
-    state.n_panels = start_panels(problem.n_strips, n, strips, problem.result, panels, workspace.rule.cosines, vectors)
-    if problem.skew > 0.0:
-        turn_panels(problem.sep, state.n_panels, n, strips, problem.skew, problem.by_load, panels, vectors)
-    _reset(problem, 0, state)
-    _divide(problem, state)
-
-
-@kernel
-def begin(problem, n_panels, most, state):
-    """Set the state before the first of `most` iterations. The last solution left `n_panels` panels, 0 for a cold start."""
-    state.number, state.error, state.load, state.last, state.converged = 0, math.inf, 0.0, 0, 0
-    # a warm start that finds no rest leaves the cold one at least as many iterations, or takes all
-    state.patience = WARM if most >= 2 * WARM else 2 * WARM
-    if n_panels > 0:
-        state.n_panels = n_panels
-        _reset(problem, 1, state)
-        _divide(problem, state)
-    else:
-        _start_afresh(problem, state)
-
-
-@kernel
-def begin_again(problem, state):
-    """Begin anew from the present unknowns, with ends that move again. Middles stay as much straightened as they are."""
-    approach, stiff = state.approach, state.stiff
-    state.number += 1
-    _reset(problem, 0, state)
-    state.approach, state.stiff, state.last, state.converged = approach, stiff, 0, 0
-    problem.workspace.space.vectors[Vector.ACTIVE] = 1.0
 
 
 @kernel
@@ -311,7 +244,7 @@ def _take(problem, state):
     if joined:
         state.mixed, state.best = 0, math.inf
         note_event(problem, state, Event.JOINED.value)
-        _divide(problem, state)
+        divide_at_ridges(problem, state)
 
 
 @kernel
@@ -364,7 +297,7 @@ def accept(problem, state):
     if (exact or settled or calm) and state.at_peak < AT_PEAK and (age >= LATE or state.at_strip < ZIGZAG):
         if _swings(problem, state):
             _stiffen(state)
-        elif _divide(problem, state):
+        elif divide_at_ridges(problem, state):
             return False
         elif not _search(problem, state, GHOST):
             state.converged = 1 if exact or settled else 0
@@ -385,7 +318,7 @@ def step(problem, state):
     """
     state.events = 0
     if state.warm != 0 and state.number == state.patience:
-        _start_afresh(problem, state)
+        start_afresh(problem, state)
         state.events = Event.AGAIN.value
     note(problem, state, math.inf, 0.0, 0.0, 0)
     few = problem.workspace.rule.across.nodes.size <= COARSE  # more strips are straightened much already

@@ -22,6 +22,7 @@ from contact.core import kernel
 from contact.kernels.cubic import locate
 from contact.kernels.enumerations import LoadKind, Status
 from contact.kernels.normal.analyn import analyn, prepare
+from contact.kernels.normal.begin import begin, begin_again
 from contact.kernels.normal.between_panels import is_shared
 from contact.kernels.normal.descent import COARSE
 from contact.kernels.normal.ends import SPUR
@@ -31,8 +32,6 @@ from contact.kernels.normal.iteration import (
     FREEZE,
     TOLERANCE,
     Problem,
-    begin,
-    begin_again,
     finish,
     step,
 )
