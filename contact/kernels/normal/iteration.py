@@ -24,13 +24,7 @@ from contact.kernels.normal.ends import end_moves, go_far, have_idle_part, is_fa
 from contact.kernels.normal.mixing import advance, largest_step, mix
 from contact.kernels.normal.notes import note, note_event
 from contact.kernels.normal.panels import EARLY_GHOST, GHOST, extend_to_ghosts
-from contact.kernels.normal.partition import (
-    cut_idle,
-    have_gap,
-    join_panels,
-    part_panels,
-    remove_unloaded,
-)
+from contact.kernels.normal.partition import cut_idle, have_gap, join_panels, part_panels, remove_unloaded
 from contact.kernels.normal.residuals import AT_PEAK, fill_residuals, find_pressures, is_stiff, stands_alone
 from contact.kernels.normal.start import WARM, stirs
 from contact.kernels.normal.strip_system import edge_displacements
