@@ -16,7 +16,7 @@ from contact.kernels.tangential.ellipses import Part, end_of_patch, is_beyond_ka
 from contact.kernels.tangential.fastrip import fastrip
 from contact.kernels.tangential.fastrip_mapped import fastrip_mapped, set_shapes
 from contact.kernels.tangential.fastsim import fastsim
-from contact.kernels.tangential.pulls import is_divided, set_forces
+from contact.kernels.tangential.pulls import is_divided, set_forces, set_pulls
 
 
 @kernel
@@ -92,12 +92,12 @@ def set_rolling(strips: Matrix, n: int, case: Case) -> None:
 
 
 @kernel
-def _roll_patch(part, n, divided, case, workspace, result):
+def _roll_patch(part, n, case, workspace, result):
     """Solve the tangential problem of one patch, of `n` strips in all, by the method of the case."""
     if case.tangential_family == TangentialFamily.FASTSIM:
         fastsim(part, case, workspace, result)
     elif case.tangential_family == TangentialFamily.FASTRIP_MAPPED:
-        fastrip_mapped(part, n, divided, case, workspace, result)
+        fastrip_mapped(part, n, case, workspace, result)
     elif case.tangential_family == TangentialFamily.CREEP_FORCE:
         creep_force(part, case, workspace, result)
     else:
@@ -130,19 +130,25 @@ def _roll(n, case, workspace, result):
     if mapped:
         set_shapes(n, workspace)
     divided = mapped and is_divided(workspace.strips, 0, n)
-    first = 0 if divided else n
-    while first < n:  # what several shapes do to each other
-        part = _part(n, first, workspace, result)
-        surface.G = stiffness_of(part, case, surface.mu * part.N, workspace)
-        set_forces(workspace.strips, part.first, part.last, (0, n), surface, workspace.tables)
-        first = part.last
+    for pulls in range(
+        2 if divided else 0
+    ):  # what several shapes do to each other: forces of all first, then pulls of all
+        first = 0
+        while first < n:
+            part = _part(n, first, workspace, result)
+            surface.G = stiffness_of(part, case, surface.mu * part.N, workspace)
+            if pulls:
+                set_pulls(workspace.strips, part.first, part.last, (0, n), surface)
+            else:
+                set_forces(workspace.strips, part.first, part.last, (0, n), surface, workspace.tables)
+            first = part.last
     first = 0
     while first < n:
         part = _part(n, first, workspace, result)
         surface.G = stiffness_of(part, case, surface.mu * part.N, workspace)
         if _reads_kalker(case) and is_beyond_kalker(workspace.strips, first, part.last):
             result.beyond += part.N / max(result.N, 1e-300)
-        _roll_patch(part, n, divided, surface, workspace, result)
+        _roll_patch(part, n, surface, workspace, result)
         first = part.last
 
 

@@ -43,7 +43,6 @@ from contact.kernels.tangential.march import (
     slip_at,
     stop,
 )
-from contact.kernels.tangential.pulls import set_pulls
 from contact.kernels.tangential.stick_zone import add_zone, begin_zone, end_zone
 from contact.kernels.tangential.ties import tie_strips
 from contact.kernels.tangential.varying import begin_varying, varies
@@ -301,13 +300,11 @@ def set_shapes(n: int, workspace: Workspace) -> None:
 
 
 @kernel
-def fastrip_mapped(part, n, divided, case, workspace, result):
+def fastrip_mapped(part, n, case, workspace, result):
     """Fill the traction, slip and stick fields of one patch. Add its forces, power, slip area and `beyond` to `result`.
 
-    `set_shapes` has been called for the `n` strips of all patches. If they are `divided`, they have the forces of `set_forces`.
+    `set_shapes` has been called for the `n` strips of all patches, and `set_pulls` for all if they are more than one shape.
     """
-    if divided:
-        set_pulls(workspace.strips, part.first, part.last, (0, n), case)
     beyond = set_effective(workspace.strips, part.first, part.last, (0, n), case, workspace.tables)
     result.beyond += beyond * part.N / max(result.N, 1e-300)
     roll_patch(part.first, part.last, case, workspace, result)
