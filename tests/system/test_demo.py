@@ -54,10 +54,10 @@ def test_demo_without_fmus_says_how_to_make_them(tmp_path):
     ("arguments", "message"),
     [
         (("--speed", -1), "--speed -1 is outside the allowed range [0.1, 150]"),
-        (("--step", 0), "step = 0 is outside the allowed range ]0"),
-        (("--scheme", "euler"), "scheme = 'euler' is none of gauss_seidel, jacobi"),
+        (("--step", 0), "--step 0 is outside the allowed range ]0"),
+        (("--scheme", "euler"), "--scheme 'euler' is none of gauss_seidel, jacobi"),
         (("--lateral", 0.5), "do not overlap"),
-        (("--friction", "nan"), "friction = nan"),
+        (("--friction", "nan"), "--friction nan is outside"),
     ],
 )
 def test_demo_refuses_impossible_runs(arguments, message, tmp_path):

@@ -243,7 +243,7 @@ def test_the_command_replaces_surfaces_in_a_finished_fmu(native_surfaces, tmp_pa
     [
         (("--flat", 0.05), "--flat and --polygon need --wheel"),
         (("--wheel", "S1002", "--flat-depth", 1e-3), "needs --flat"),
-        (("--wheel", "S1002", "--flat", 5.0), "length = 5 is outside"),
+        (("--wheel", "S1002", "--flat", 5.0), "--flat 5 is outside"),
         (("--rail", "absent.slcs", "--origin", 0.75, 0.0), "absent.slcs"),
         ((), "nothing to do"),
     ],
