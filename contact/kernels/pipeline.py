@@ -121,27 +121,30 @@ def _part(n, first, workspace, result):
 
 
 @kernel
+def _act_on_each_other(n, case, surface, workspace, result):
+    """Set what several shapes do to each other: the forces of all patches first, then by what creepages these pull at each."""
+    for pulls in range(2):
+        first = 0
+        while first < n:
+            part = _part(n, first, workspace, result)
+            surface.G = stiffness_of(part, case, surface.mu * part.N, workspace)
+            if pulls == 0:
+                set_forces(workspace.strips, part.first, part.last, (0, n), surface, workspace.tables)
+            else:
+                set_pulls(workspace.strips, part.first, part.last, (0, n), surface)
+            first = part.last
+
+
+@kernel
 def _roll(n, case, workspace, result):
     """Solve the tangential problem patch by patch, with the friction and the creep stiffness of the surface."""
     workspace.space.case[0] = case
     surface = workspace.space.case[0]
     surface.mu = of_case(case)
-    mapped = case.tangential_family == TangentialFamily.FASTRIP_MAPPED
-    if mapped:
+    if case.tangential_family == TangentialFamily.FASTRIP_MAPPED:
         set_shapes(n, workspace)
-    divided = mapped and is_divided(workspace.strips, 0, n)
-    for pulls in range(
-        2 if divided else 0
-    ):  # what several shapes do to each other: forces of all first, then pulls of all
-        first = 0
-        while first < n:
-            part = _part(n, first, workspace, result)
-            surface.G = stiffness_of(part, case, surface.mu * part.N, workspace)
-            if pulls:
-                set_pulls(workspace.strips, part.first, part.last, (0, n), surface)
-            else:
-                set_forces(workspace.strips, part.first, part.last, (0, n), surface, workspace.tables)
-            first = part.last
+        if is_divided(workspace.strips, 0, n):
+            _act_on_each_other(n, case, surface, workspace, result)
     first = 0
     while first < n:
         part = _part(n, first, workspace, result)

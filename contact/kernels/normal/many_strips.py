@@ -77,8 +77,8 @@ def displacement(plane: Matrix, forces: Numbers, pairs: Matrix, own: int) -> flo
 def go_off_line(plane: Matrix, forces: Numbers, pairs: Matrix, row: Numbers) -> None:
     """Change what a strip displaces on its centre line, in `row`, to what it does at X = Pair.X; `pairs` is overwritten.
 
-    `forces` are a/(pi E*) times the factor of each point. Sides lie as for `displacement`. The table gives what differs from
-    the centre line (`influence.off_line`), and up to its last row but one for X = 0 nothing.
+    `forces` are a/(pi E*) times the factor of each point. Sides lie as for `displacement`. Below `X_MAX` the table gives only
+    what differs from the centre line, as in `influence.off_line`: nothing at X = 0. Beyond, it gives all.
     """
     n = row.size
     _find_places(n, pairs, -1)
